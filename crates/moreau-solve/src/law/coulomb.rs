@@ -1,0 +1,37 @@
+//! Signorini's condition with Coulomb friction, ‖r_T‖ ≤ μ r_n, and Newton's restitution in both directions.
+
+use super::{Acts, Approach, LawError, NormalForm, check_restitution, impact_shift};
+use crate::Cone;
+
+/// Unilateral contact with friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "schema", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), serde(deny_unknown_fields))]
+pub struct Coulomb {
+    /// Coefficient of friction μ ≥ 0.
+    pub friction: f64,
+    /// Newton's coefficient e_n, 0 (no rebound) to 1.
+    #[cfg_attr(feature = "schema", serde(default))]
+    pub restitution: f64,
+    /// Tangential coefficient e_t, 0 to 1.
+    #[cfg_attr(feature = "schema", serde(default))]
+    pub tangential_restitution: f64,
+    /// When the contact acts.
+    #[cfg_attr(feature = "schema", serde(default))]
+    pub acts: Acts,
+}
+
+impl Coulomb {
+    #[inline]
+    pub(super) fn normal_form<const D: usize>(&self, contact: &Approach<D>) -> Option<NormalForm<D>> {
+        let shift = impact_shift(contact, self.acts, self.restitution, self.tangential_restitution)?;
+        Some(NormalForm { cone: Cone::Coulomb(self.friction), shift })
+    }
+
+    pub(super) fn check(&self) -> Result<(), LawError> {
+        if !(self.friction >= 0.0 && self.friction.is_finite()) {
+            return Err(LawError { parameter: "friction", value: self.friction, range: "a finite number, 0 or more" });
+        }
+        check_restitution("restitution", self.restitution)?;
+        check_restitution("tangential_restitution", self.tangential_restitution)
+    }
+}

@@ -1,0 +1,35 @@
+//! Enhanced augmented Lagrangian (EAL), section 4.1: generalised Newton on the augmented Lagrangian's fixed point (eq. 26).
+//!
+//! ```text
+//! find χ = (r, u):   u = W r + q,   r_n = [τ_n]₊,   r_T = proj(τ_T, B(0, μ [τ_n]₊)),   τ = r − ρ u
+//! ```
+//!
+//! Reference: Alart & Curnier 1991; Dumont 2013. Claims the velocity of its last round.
+
+use super::newton::{Image, newton};
+use super::sal::steps;
+use super::{LocalSolver, Visit};
+use crate::block::{Matrix, Vector};
+use crate::{Cone, Parameter};
+
+/// Newton to convergence on the half cylinder.
+#[derive(Clone, Copy, Debug)]
+pub struct Eal {
+    /// ρ; automatic is 1/W_nn along the normal and 1/‖W_TT‖ along the tangent.
+    pub rho: Parameter,
+}
+
+impl LocalSolver for Eal {
+    const CLAIMS: bool = true;
+
+    #[inline]
+    fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        let rho = steps(self.rho, w);
+        newton(w, u, r, |r, u| {
+            let tau = std::array::from_fn(|i| r[i] - rho[i] * u[i]);
+            let (value, by_r) = cone.project_cylinder(&tau);
+            let by_u = std::array::from_fn(|i| std::array::from_fn(|j| -by_r[i][j] * rho[j]));
+            Image { value, by_r, by_u }
+        })
+    }
+}

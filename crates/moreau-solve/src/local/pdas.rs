@@ -1,0 +1,91 @@
+//! Primal-dual active set (PDAS), section 4.3: the sets are read from (r, u), the law is then enforced exactly on each.
+//!
+//! ```text
+//! τ_n = r_n − γ_n u_n,   τ_T = r_T − γ_T u_T
+//! I: τ_n < 0              separated   r = 0                                      (eqs. 38, 41)
+//! A: τ_n ≥ 0, frictionless            u_n = 0, r_n ← r_n − u_n/W_nn, r_T = 0       (eqs. 37, 39, 40)
+//! A: ‖τ_T‖ ≤ μ r_n        sticking    u = 0, r ← r − W⁻¹ u
+//! A: ‖τ_T‖ > μ r_n        sliding     u_n = 0, r_T = μ r_n τ_T/‖τ_T‖
+//! ```
+//!
+//! The last two rows carry the paper's idea to Coulomb friction, as its conclusion asks for (compare Hüeber, Stadler & Wohlmuth 2008).
+//! There the tangent is judged with the normal closed: u_T is taken after u_n has been brought to zero, and r_n is what closes
+//! the normal under τ_T. A sticking impulse outside the cone is no member of that set, and the contact slides.
+//!
+//! One visit is one update of the sets. With the automatic γ it is exact in the plane, and in space where the tangential block is a
+//! multiple of the identity, as for balls; else the direction of sliding settles over the sweeps.
+
+use super::{LocalSolver, Visit, exact, free, separated};
+use crate::block::{Matrix, Vector, axpy, dot, solve_definite, sub, tangent_norm, tangent_row_sum_norm, velocity_after};
+use crate::{Cone, Parameter};
+
+/// One update of the active sets a visit.
+#[derive(Clone, Copy, Debug)]
+pub struct Pdas {
+    /// γ; automatic is 1/W_nn along the normal and 1/‖S‖ along the tangent, S the tangential block with the normal closed.
+    pub gamma: Parameter,
+}
+
+impl LocalSolver for Pdas {
+    const CLAIMS: bool = true;
+
+    #[inline]
+    fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        if D > 1 && cone == Cone::Sticking {
+            return exact::held(w, &free(w, u, r));
+        }
+        let tau_n = r[0] - self.gamma.value(1.0 / w[0][0]) * u[0];
+        if tau_n < 0.0 {
+            return separated(w, u, r);
+        }
+        if D == 1 {
+            let pressed = std::array::from_fn(|i| r[i] - u[i] / w[0][0]);
+            return Visit { r: pressed, u: [0.0; D], converged: true };
+        }
+        let mu = cone.friction();
+        let tau = self.closed(w, u, r);
+        let length = tangent_norm(&tau);
+        if length <= mu * tau[0]
+            && let Some(held) = stick(w, u, r)
+            && tangent_norm(&held.r) <= mu * held.r[0]
+        {
+            return held;
+        }
+        let direction = |i: usize| if i == 0 { 1.0 } else { mu * tau[i] / length };
+        slide(w, u, r, &std::array::from_fn(|i| if i > 0 && length == 0.0 { 0.0 } else { direction(i) }))
+    }
+}
+
+impl Pdas {
+    /// (r_n that closes the normal under τ_T, τ_T), where τ_T = r_T − γ_T u_T with u_n brought to zero.
+    #[inline]
+    fn closed<const D: usize>(&self, w: &Matrix<D>, u: &Vector<D>, r: &Vector<D>) -> Vector<D> {
+        let schur: Matrix<D> = std::array::from_fn(|i| std::array::from_fn(|j| w[i][j] - w[i][0] * w[0][j] / w[0][0]));
+        let gamma = self.gamma.value(1.0 / tangent_row_sum_norm(&schur));
+        let mut tau: Vector<D> = std::array::from_fn(|i| r[i] - gamma * (u[i] - w[i][0] * u[0] / w[0][0]));
+        let coupled: f64 = (1..D).map(|i| w[0][i] * (tau[i] - r[i])).sum();
+        tau[0] = r[0] - (u[0] + coupled) / w[0][0];
+        tau
+    }
+}
+
+/// u = 0, unless the block is singular.
+#[inline]
+fn stick<const D: usize>(w: &Matrix<D>, u: &Vector<D>, r: &Vector<D>) -> Option<Visit<D>> {
+    solve_definite(w, u).map(|change| Visit { r: sub(r, &change), u: [0.0; D], converged: true })
+}
+
+/// r along `direction` = (1, μ s), u_n = 0.
+#[inline]
+fn slide<const D: usize>(w: &Matrix<D>, u: &Vector<D>, r: &Vector<D>, direction: &Vector<D>) -> Visit<D> {
+    let normal_free = free(w, u, r)[0];
+    let stiffness = dot(&w[0], direction);
+    // Where friction alone would lift the contact (W_nn + μ W_nT·s ≤ 0), no impulse along the ray closes it: step without it.
+    let r_n = if stiffness > 0.0 { -normal_free / stiffness } else { r[0] - u[0] / w[0][0] };
+    let r_new = axpy(&[0.0; D], r_n.max(0.0), direction);
+    let mut u_new = velocity_after(w, u, r, &r_new);
+    if stiffness > 0.0 && r_n >= 0.0 {
+        u_new[0] = 0.0;
+    }
+    Visit { r: r_new, u: u_new, converged: true }
+}

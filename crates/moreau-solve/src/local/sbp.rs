@@ -1,0 +1,35 @@
+//! Standard bipotential (SBP), section 4.2: one step of Uzawa's method on the bipotential.
+//!
+//! ```text
+//! û = u + μ ‖u_T‖ n            the velocity with de Saxcé's correction
+//! τ = r − ρ û                  the augmented impulse
+//! r ← proj(τ, K_μ)             on Coulomb's cone (eq. 29)
+//! ```
+//!
+//! Reference: de Saxcé & Feng 1991; Fortin, Millet & de Saxcé 2005. Its fixed point is exact; how fast it comes there depends on ρ: a
+//! visit without friction leaves the part 1 − ρ W_nn of the error. With the automatic ρ = 1/‖W‖ (row sums) it is then exact in one
+//! visit. Not to be used where W_nn varies much between contacts with one absolute ρ: some contacts crawl, others diverge.
+
+use super::{LocalSolver, Visit, moved};
+use crate::block::{Matrix, Vector, axpy, row_sum_norm, tangent_norm};
+use crate::{Cone, Parameter};
+
+/// One projection a visit on Coulomb's cone.
+#[derive(Clone, Copy, Debug)]
+pub struct Sbp {
+    /// ρ; automatic is 1/‖W_cc‖.
+    pub rho: Parameter,
+}
+
+impl LocalSolver for Sbp {
+    const CLAIMS: bool = false;
+
+    #[inline]
+    fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        let rho = self.rho.value(1.0 / row_sum_norm(w));
+        let mut hat = *u;
+        hat[0] += cone.friction() * tangent_norm(u);
+        let (image, _) = cone.project(&axpy(r, -rho, &hat));
+        moved(w, u, r, image)
+    }
+}

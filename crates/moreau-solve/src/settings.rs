@@ -1,0 +1,119 @@
+//! How a problem is to be solved.
+
+use crate::{GlobalMethod, LocalMethod, Order};
+
+/// Which measure stops the sweeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "schema",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum Criterion {
+    /// The paper's ε_glob (eq. 42).
+    #[default]
+    EpsGlob,
+    /// The scaled residual, which does not depend on units; see [`crate::residual`].
+    Scaled,
+}
+
+/// The parameter ρ of SBP, SAL, EBP and EAL, or γ of PDAS: how far a velocity moves an impulse, kg.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "schema",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum Parameter {
+    /// From the contact's own block of W; see each method.
+    #[default]
+    Auto,
+    /// The automatic value times a factor.
+    Relative(f64),
+    /// One value for all contacts, kg, as in the paper.
+    Absolute(f64),
+}
+
+impl Parameter {
+    /// Its value where the automatic one is `automatic`.
+    #[inline]
+    pub fn value(self, automatic: f64) -> f64 {
+        match self {
+            Parameter::Auto => automatic,
+            Parameter::Relative(factor) => factor * automatic,
+            Parameter::Absolute(value) => value,
+        }
+    }
+}
+
+/// Settings of one solve, with sound defaults.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The method over all contacts.
+    pub global: GlobalMethod,
+    /// The method at one contact.
+    pub local: LocalMethod,
+    /// What is measured.
+    pub criterion: Criterion,
+    /// Where to stop.
+    pub tolerance: f64,
+    /// After how many sweeps to give up.
+    pub max_sweeps: u64,
+    /// The order of a sweep.
+    pub order: Order,
+    /// ρ of SBP, SAL, EBP, EAL.
+    pub rho: Parameter,
+    /// γ of PDAS.
+    pub gamma: Parameter,
+    /// Whether the report keeps the residuals of every sweep; else they are measured at every one of the first twenty sweeps and
+    /// then every sixteenth part of those done, and not kept.
+    pub history: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            global: GlobalMethod::Nlgs,
+            local: LocalMethod::Pdas,
+            criterion: Criterion::EpsGlob,
+            tolerance: 1e-7,
+            max_sweeps: 100_000,
+            order: Order::Natural,
+            rho: Parameter::Auto,
+            gamma: Parameter::Auto,
+            history: false,
+        }
+    }
+}
+
+/// A setting outside its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{setting} = {value} is out of range: {range}")]
+pub struct SettingsError {
+    /// Its name.
+    pub setting: &'static str,
+    /// What was given.
+    pub value: f64,
+    /// What would be right.
+    pub range: &'static str,
+}
+
+impl Settings {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the first setting that is not a positive, finite number.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        let value = |parameter: Parameter| parameter.value(1.0);
+        let numbers = [("tolerance", self.tolerance), ("rho", value(self.rho)), ("gamma", value(self.gamma))];
+        for (setting, value) in numbers {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(SettingsError { setting, value, range: "a positive, finite number" });
+            }
+        }
+        if self.max_sweeps == 0 {
+            return Err(SettingsError { setting: "max_sweeps", value: 0.0, range: "1 or more" });
+        }
+        Ok(())
+    }
+}
