@@ -9,8 +9,9 @@ pub type Matrix<const D: usize> = [[f64; D]; D];
 /// a · b.
 #[inline]
 pub fn dot<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> f64 {
-    let mut sum = 0.0;
-    for i in 0..D {
+    // From the first product, not from zero: in a sweep each addition is waited for.
+    let mut sum = a[0] * b[0];
+    for i in 1..D {
         sum += a[i] * b[i];
     }
     sum

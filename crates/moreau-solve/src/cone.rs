@@ -10,7 +10,7 @@ pub enum Cone {
     /// Coulomb's friction with the coefficient μ ≥ 0: K* ∋ u + μ‖u_T‖ n ⊥ r ∈ K_μ (eqs. 27-29).
     Coulomb(f64),
     /// The tangential velocity is held: u_T = 0 and 0 ≤ u_n ⊥ r_n ≥ 0, the impulses being a half space. It is Coulomb's cone for
-    /// μ → ∞, and convex, so that a solution always exists; the law that uses it decides by the gap whether a contact is held.
+    /// μ → ∞, and convex; the law that uses it decides by the gap whether a contact is held.
     Sticking,
 }
 
@@ -57,11 +57,12 @@ fn project_normal<const D: usize>(tau: &Vector<D>, keep: f64) -> (Vector<D>, Mat
 #[inline]
 fn project_second_order<const D: usize>(mu: f64, tau: &Vector<D>) -> (Vector<D>, Matrix<D>) {
     let length = tangent_norm(tau);
-    if length <= mu * tau[0] {
-        return (*tau, identity());
-    }
+    // The polar cone first: for μ = 0 and τ_T = 0 both tests hold of a pull.
     if mu * length <= -tau[0] {
         return ([0.0; D], [[0.0; D]; D]);
+    }
+    if length <= mu * tau[0] {
+        return (*tau, identity());
     }
     // On the boundary: the component α along (1, μ s), s = τ_T/‖τ_T‖.
     let alpha = (tau[0] + mu * length) / (1.0 + mu * mu);

@@ -48,7 +48,7 @@ pub enum Acts {
     /// When its predicted gap is closed (eqs. 4-5).
     #[default]
     Closed,
-    /// Also before: u_n + max(0, gap)/h ≥ 0, so that the gap closes and is not overshot.
+    /// Also before: u_n + max(0, gap)/h ≥ 0, so that the gap at the next predicted configuration closes and is not overshot.
     Approach,
 }
 

@@ -43,7 +43,7 @@ pub use order::Order;
 pub use problem::Problem;
 pub use report::{HistoryRow, Report, Status};
 pub use residual::{EpsGlob, Residual};
-pub use settings::{Criterion, Parameter, Settings, SettingsError};
+pub use settings::{Criterion, Parameter, Resolved, Settings, SettingsError};
 
 /// One line of a table of what can be named in a scene: laws, solvers, shapes, outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -102,11 +102,11 @@ pub trait WithLocal {
 /// Runs `task` with the local solver that `settings` name.
 pub fn with_local<T: WithLocal>(settings: &Settings, task: T) -> T::Output {
     match settings.local {
-        LocalMethod::Sbp => task.run(Sbp { rho: settings.rho }),
-        LocalMethod::Sal => task.run(Sal { rho: settings.rho }),
-        LocalMethod::Ebp => task.run(Ebp { rho: settings.rho }),
-        LocalMethod::Eal => task.run(Eal { rho: settings.rho }),
-        LocalMethod::Pdas => task.run(Pdas { gamma: settings.gamma }),
+        LocalMethod::Sbp => task.run(Sbp { rho: settings.rho.resolve() }),
+        LocalMethod::Sal => task.run(Sal { rho: settings.rho.resolve() }),
+        LocalMethod::Ebp => task.run(Ebp { rho: settings.rho.resolve() }),
+        LocalMethod::Eal => task.run(Eal { rho: settings.rho.resolve() }),
+        LocalMethod::Pdas => task.run(Pdas { gamma: settings.gamma.resolve() }),
         LocalMethod::Exact => task.run(Exact),
     }
 }

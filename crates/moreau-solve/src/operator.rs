@@ -22,6 +22,10 @@ pub trait Operator<const D: usize>: Sync {
     /// (W r)_c.
     fn apply(&self, state: &Self::State, c: usize) -> Vector<D>;
 
-    /// Adds `change` to the impulse of contact `c`.
-    fn add(&self, state: &mut Self::State, c: usize, change: &Vector<D>);
+    /// Orders the contacts so that neighbours in the order share no body, as far as that can be had; see [`crate::Order::Coloured`].
+    /// An operator that does not know its bodies leaves `order` as it is.
+    fn colour(&self, _order: &mut [u32]) {}
+
+    /// One visit: gives W_cc and (W r)_c to `visit`, and adds the change of the impulse that it returns.
+    fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<D>, Vector<D>) -> Vector<D>);
 }

@@ -32,6 +32,8 @@ pub struct Report {
     pub sweeps: u64,
     /// Measured at the end, from the impulses alone.
     pub residual: Residual,
+    /// Visits of the last sweep in which the local solver did not reach its own end.
+    pub unfinished_visits: u64,
     /// Measured after each sweep, if asked for.
     pub history: Vec<HistoryRow>,
 }

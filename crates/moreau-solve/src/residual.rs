@@ -7,15 +7,15 @@
 //! - ε_bipotential = |ũ·r + μ r_n ‖ũ_T‖|, which vanishes if (ũ, r) obeys the law;
 //! - ε_penetration = −min(0, ũ_n), with ‖ũ_T‖ added for a sticking contact, whose tangential velocity must vanish.
 //!
-//! It adds a velocity and a power, so its meaning changes with the units. The scaled residual does not:
+//! It adds velocities and an energy, so its meaning changes with the units. The scaled residual does not:
 //!
 //! ```text
-//! e_c = w_c ‖r − P_K(r − û/w_c)‖,  w_c = tr(W_cc)/D,  û = u + μ‖u_T‖ n,    scaled = √(Σ e_c²) / √(Σ ‖q_c‖²)
+//! e_c = w_c ‖r − P_K(r − û/w_c)‖,  w_c = tr(W_cc)/D,  û = u + μ‖u_T‖ n,    scaled = √(Σ e_c²) / √(Σ ‖q_c‖² + ‖u_c‖²)
 //! ```
 //!
-//! with P_K the projection on the cone of impulses: e_c is a velocity, zero exactly at a solution, and q (of which only the normal
-//! part counts where there is no friction) gives the velocity to compare with. Velocities here are those of the normal form, with
-//! the shift added; with restitution they are 1 + e times the formal ones of eq. 21, so ε_glob is never smaller than the paper's.
+//! with P_K the projection on the cone of impulses: e_c is a velocity, zero exactly at a solution, and the velocities without and with
+//! impulses (of which only the normal part counts where there is no friction) are what it is compared with. Velocities here are those of the normal form, with
+//! the shift added; with restitution they are 1 + e times the formal ones of eq. 21, so with one coefficient e ε_glob is never smaller than the paper's.
 
 use crate::block::{Vector, axpy, dot, norm, sub, tangent_norm};
 use crate::{Cone, Criterion, Operator, Problem};
@@ -127,10 +127,10 @@ fn mean_eps_glob<O: Operator<D>, const D: usize>(
 fn scaled<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, state: &O::State, r: &[Vector<D>]) -> f64 {
     let (mut errors, mut speeds) = (0.0, 0.0);
     for c in 0..problem.len() {
-        let (cone, q) = (problem.cones[c], &problem.q[c]);
-        let error = natural(cone, mean_diagonal(problem, c), &problem.velocity(state, c), &r[c]);
+        let (cone, q, u) = (problem.cones[c], &problem.q[c], problem.velocity(state, c));
+        let error = natural(cone, mean_diagonal(problem, c), &u, &r[c]);
         errors += error * error;
-        speeds += if cone == Cone::Signorini { q[0] * q[0] } else { dot(q, q) };
+        speeds += if cone == Cone::Signorini { q[0] * q[0] + u[0] * u[0] } else { dot(q, q) + dot(&u, &u) };
     }
     if errors == 0.0 { 0.0 } else { (errors / speeds).sqrt() }
 }

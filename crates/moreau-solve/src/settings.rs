@@ -34,15 +34,29 @@ pub enum Parameter {
     Absolute(f64),
 }
 
+/// A parameter made ready for the sweeps, where a choice at each visit would cost more than the visit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolved {
+    factor: f64,
+    fixed: f64,
+}
+
 impl Parameter {
+    /// The parameter as a factor of the automatic value and a fixed part, one of which is zero.
+    pub fn resolve(self) -> Resolved {
+        match self {
+            Parameter::Auto => Resolved { factor: 1.0, fixed: 0.0 },
+            Parameter::Relative(factor) => Resolved { factor, fixed: 0.0 },
+            Parameter::Absolute(fixed) => Resolved { factor: 0.0, fixed },
+        }
+    }
+}
+
+impl Resolved {
     /// Its value where the automatic one is `automatic`.
     #[inline]
     pub fn value(self, automatic: f64) -> f64 {
-        match self {
-            Parameter::Auto => automatic,
-            Parameter::Relative(factor) => factor * automatic,
-            Parameter::Absolute(value) => value,
-        }
+        self.factor * automatic + self.fixed
     }
 }
 
@@ -78,7 +92,7 @@ impl Default for Settings {
             criterion: Criterion::EpsGlob,
             tolerance: 1e-7,
             max_sweeps: 100_000,
-            order: Order::Natural,
+            order: Order::Coloured,
             rho: Parameter::Auto,
             gamma: Parameter::Auto,
             history: false,
@@ -104,7 +118,7 @@ impl Settings {
     /// # Errors
     /// Names the first setting that is not a positive, finite number.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let value = |parameter: Parameter| parameter.value(1.0);
+        let value = |parameter: Parameter| parameter.resolve().value(1.0);
         let numbers = [("tolerance", self.tolerance), ("rho", value(self.rho)), ("gamma", value(self.gamma))];
         for (setting, value) in numbers {
             if !(value > 0.0 && value.is_finite()) {

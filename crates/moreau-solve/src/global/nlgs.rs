@@ -31,18 +31,18 @@ impl<O: Operator<D>, const D: usize> WithLocal for Nlgs<'_, O, D> {
 
     fn run<L: LocalSolver>(self, local: L) -> Report {
         let Self { problem, settings, r, scratch } = self;
-        settings.order.fill(problem.len(), &mut scratch.order);
+        settings.order.fill(problem.operator, problem.len(), &mut scratch.order);
         scratch.claimed.clear();
         scratch.claimed.resize(if L::CLAIMS { problem.len() } else { 0 }, [0.0; D]);
         problem.operator.start(r, &mut scratch.state);
 
         let mut history = Vec::new();
-        let (mut sweeps, mut next_check) = (0, 1);
+        let (mut sweeps, mut next_check, mut unfinished_visits) = (0, 1, 0);
         let status = loop {
             if problem.is_empty() {
                 break Status::Converged;
             }
-            sweep(problem, local, r, scratch);
+            unfinished_visits = sweep(problem, local, r, scratch);
             sweeps += 1;
             let last = sweeps >= settings.max_sweeps;
             if settings.history {
@@ -70,7 +70,7 @@ impl<O: Operator<D>, const D: usize> WithLocal for Nlgs<'_, O, D> {
         };
         problem.operator.start(r, &mut scratch.state);
         let residual = measure(problem, &scratch.state, r, claims::<L, D>(&scratch.claimed));
-        Report { status, sweeps, residual, history }
+        Report { status, sweeps, residual, unfinished_visits, history }
     }
 }
 
@@ -79,30 +79,41 @@ fn claims<L: LocalSolver, const D: usize>(claimed: &[Vector<D>]) -> Option<&[Vec
     L::CLAIMS.then_some(claimed)
 }
 
-/// One visit to every contact.
+/// One visit to every contact; returns how many did not reach their own end.
 fn sweep<O: Operator<D>, L: LocalSolver, const D: usize>(
     problem: &Problem<'_, O, D>,
     local: L,
     r: &mut [Vector<D>],
     scratch: &mut Scratch<O::State, D>,
-) {
-    for &c in &scratch.order {
+) -> u64 {
+    let Scratch { state, claimed, order } = scratch;
+    let n = order.len();
+    // One length for all, and one look at the index: the compiler then drops a check for each array.
+    let (q, cones, r) = (&problem.q[..n], &problem.cones[..n], &mut r[..n]);
+    let claimed = if L::CLAIMS { &mut claimed[..n] } else { &mut [] };
+    let mut unfinished = 0;
+    for &c in order.iter() {
         let c = c as usize;
-        let u = problem.velocity(&scratch.state, c);
-        let visit = visit(local, problem.operator.diagonal(c), problem.cones[c], &u, &r[c]);
-        let change = sub(&visit.r, &r[c]);
-        if change != [0.0; D] {
-            problem.operator.add(&mut scratch.state, c, &change);
+        if c >= n {
+            continue;
+        }
+        problem.operator.relax(state, c, |w, wr| {
+            let u = std::array::from_fn(|i| q[c][i] + wr[i]);
+            let visit = visit(local, w, cones[c], &u, &r[c]);
+            let change = sub(&visit.r, &r[c]);
             r[c] = visit.r;
-        }
-        if L::CLAIMS {
-            scratch.claimed[c] = visit.u;
-        }
+            if L::CLAIMS {
+                claimed[c] = visit.u;
+            }
+            unfinished += u64::from(!visit.converged);
+            change
+        });
     }
+    unfinished
 }
 
 /// A contact without friction is a problem of one dimension, in whichever space it lies.
-#[inline]
+#[inline(always)]
 fn visit<L: LocalSolver, const D: usize>(local: L, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
     if D == 1 || cone != Cone::Signorini {
         return local.visit(w, cone, u, r);

@@ -1,6 +1,6 @@
 //! Signorini's condition with the tangential velocity held at zero while the contact is closed: the balls of experiment 3 on their
 //! plane (section 5.3). It is Coulomb's law without a limit of friction. Whether a contact is closed is decided by its predicted gap,
-//! before the solve: to let it go by the sign of u_n, inside the solve, would leave some systems of contacts without a solution.
+//! before the solve: to let it go by the sign of u_n, inside the solve, would make the law discontinuous in the impulses of the others, and sweeps may then never settle.
 
 use super::{Acts, Approach, LawError, NormalForm, check_restitution, impact_shift};
 use crate::Cone;

@@ -10,13 +10,13 @@ use super::newton::{Image, newton};
 use super::sal::steps;
 use super::{LocalSolver, Visit};
 use crate::block::{Matrix, Vector};
-use crate::{Cone, Parameter};
+use crate::{Cone, Resolved};
 
 /// Newton to convergence on the half cylinder.
 #[derive(Clone, Copy, Debug)]
 pub struct Eal {
     /// ρ; automatic is 1/W_nn along the normal and 1/‖W_TT‖ along the tangent.
-    pub rho: Parameter,
+    pub rho: Resolved,
 }
 
 impl LocalSolver for Eal {

@@ -10,13 +10,13 @@
 use super::newton::{Image, newton};
 use super::{LocalSolver, Visit};
 use crate::block::{Matrix, Vector, axpy, row_sum_norm, tangent_norm};
-use crate::{Cone, Parameter};
+use crate::{Cone, Resolved};
 
 /// Newton to convergence on Coulomb's cone.
 #[derive(Clone, Copy, Debug)]
 pub struct Ebp {
     /// ρ; automatic is 1/‖W_cc‖.
-    pub rho: Parameter,
+    pub rho: Resolved,
 }
 
 impl LocalSolver for Ebp {

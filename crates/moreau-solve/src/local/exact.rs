@@ -8,7 +8,7 @@
 //!
 //! with q the velocity without this contact's impulse. Sliding: eliminating r_n by u_n = 0 leaves (S + λ I) r_T = −b with the Schur
 //! complement S = W_TT − W_Tn W_nT/W_nn and b = q_T − W_Tn q_n/W_nn; φ(λ) = ‖r_T(λ)‖ − μ r_n(λ) is positive at λ = 0 (not sticking) and
-//! negative at infinity (r_T → 0, r_n → −q_n/W_nn > 0), so bisection in λ/(λ + ‖S‖) always finds a root. In the plane S is a number and
+//! negative at infinity (r_T → 0, r_n → −q_n/W_nn > 0), so bisection in λ/(λ + tr S) always finds a root. In the plane S is a number and
 //! the root is the intersection of the line u_n = 0 with the cone's edge. (In space the root solves the quartic of Bonnefon & Daviet 2011.)
 //!
 //! Slower than the others by the search for λ; where W couples normal and tangent strongly there may be several roots, and it

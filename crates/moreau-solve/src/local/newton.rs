@@ -60,7 +60,7 @@ pub(super) fn newton<const D: usize>(
     Visit { r, u, converged: error <= 1e-12 * (norm(&r) + norm(&image.value)) }
 }
 
-/// Δr of eq. 33; the negative gradient's direction −Z where the matrix is singular.
+/// Δr of eq. 33; the step −Z to the projection where the matrix is singular.
 #[inline]
 fn step<const D: usize>(w: &Matrix<D>, image: &Image<D>, z: &Vector<D>) -> Vector<D> {
     let one = identity::<D>();

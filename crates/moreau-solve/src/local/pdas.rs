@@ -12,18 +12,18 @@
 //! There the tangent is judged with the normal closed: u_T is taken after u_n has been brought to zero, and r_n is what closes
 //! the normal under τ_T. A sticking impulse outside the cone is no member of that set, and the contact slides.
 //!
-//! One visit is one update of the sets. With the automatic γ it is exact in the plane, and in space where the tangential block is a
-//! multiple of the identity, as for balls; else the direction of sliding settles over the sweeps.
+//! One visit is one update of the sets. With the automatic γ and no tangential impulse to begin with it is exact in the plane, and in
+//! space where the tangential block is a multiple of the identity, as for balls; else sets and direction settle over the sweeps.
 
 use super::{LocalSolver, Visit, exact, free, separated};
 use crate::block::{Matrix, Vector, axpy, dot, solve_definite, sub, tangent_norm, tangent_row_sum_norm, velocity_after};
-use crate::{Cone, Parameter};
+use crate::{Cone, Resolved};
 
 /// One update of the active sets a visit.
 #[derive(Clone, Copy, Debug)]
 pub struct Pdas {
     /// γ; automatic is 1/W_nn along the normal and 1/‖S‖ along the tangent, S the tangential block with the normal closed.
-    pub gamma: Parameter,
+    pub gamma: Resolved,
 }
 
 impl LocalSolver for Pdas {
@@ -34,13 +34,16 @@ impl LocalSolver for Pdas {
         if D > 1 && cone == Cone::Sticking {
             return exact::held(w, &free(w, u, r));
         }
-        let tau_n = r[0] - self.gamma.value(1.0 / w[0][0]) * u[0];
+        // The inverse does not wait for u: a sweep is bound by what one visit hands to the next.
+        let inverse = 1.0 / w[0][0];
+        let tau_n = r[0] - self.gamma.value(inverse) * u[0];
         if tau_n < 0.0 {
             return separated(w, u, r);
         }
         if D == 1 {
-            let pressed = std::array::from_fn(|i| r[i] - u[i] / w[0][0]);
-            return Visit { r: pressed, u: [0.0; D], converged: true };
+            let pressed = r[0] - inverse * u[0];
+            // With γ other than 1/W_nn the set may be wrong, and eq. 40 would pull: that contact is separated.
+            return if pressed < 0.0 { separated(w, u, r) } else { Visit { r: [pressed; D], u: [0.0; D], converged: true } };
         }
         let mu = cone.friction();
         let tau = self.closed(w, u, r);

@@ -11,18 +11,18 @@
 
 use super::{LocalSolver, Visit, moved};
 use crate::block::{Matrix, Vector, tangent_row_sum_norm};
-use crate::{Cone, Parameter};
+use crate::{Cone, Resolved};
 
 /// One projection a visit on the half cylinder.
 #[derive(Clone, Copy, Debug)]
 pub struct Sal {
     /// ρ; automatic is 1/W_nn along the normal and 1/‖W_TT‖ along the tangent.
-    pub rho: Parameter,
+    pub rho: Resolved,
 }
 
 /// ρ for each component.
 #[inline]
-pub(super) fn steps<const D: usize>(rho: Parameter, w: &Matrix<D>) -> Vector<D> {
+pub(super) fn steps<const D: usize>(rho: Resolved, w: &Matrix<D>) -> Vector<D> {
     let normal = rho.value(1.0 / w[0][0]);
     let tangent = if D > 1 { rho.value(1.0 / tangent_row_sum_norm(w)) } else { 0.0 };
     std::array::from_fn(|i| if i == 0 { normal } else { tangent })

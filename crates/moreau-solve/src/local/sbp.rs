@@ -12,13 +12,13 @@
 
 use super::{LocalSolver, Visit, moved};
 use crate::block::{Matrix, Vector, axpy, row_sum_norm, tangent_norm};
-use crate::{Cone, Parameter};
+use crate::{Cone, Resolved};
 
 /// One projection a visit on Coulomb's cone.
 #[derive(Clone, Copy, Debug)]
 pub struct Sbp {
     /// ρ; automatic is 1/‖W_cc‖.
-    pub rho: Parameter,
+    pub rho: Resolved,
 }
 
 impl LocalSolver for Sbp {

@@ -96,7 +96,7 @@ proptest! {
 fn standard_methods_contract_by_one_minus_rho_w() {
     let w = [[2.0]];
     for rho in [0.25, 0.5, 0.75] {
-        let sbp = Sbp { rho: Parameter::Relative(rho) };
+        let sbp = Sbp { rho: Parameter::Relative(rho).resolve() };
         let visit = sbp.visit(&w, Cone::Signorini, &[-1.0], &[0.0]);
         assert!((visit.u[0] + (1.0 - rho)).abs() < 1e-15);
     }

@@ -62,7 +62,8 @@ impl<const D: usize> Operator<D> for Delassus<D> {
         u
     }
 
-    fn add(&self, state: &mut Self::State, c: usize, change: &Vector<D>) {
+    fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<D>, Vector<D>) -> Vector<D>) {
+        let change = visit(&self.diagonal[c], self.apply(state, c));
         for i in 0..D {
             state[c][i] += change[i];
         }

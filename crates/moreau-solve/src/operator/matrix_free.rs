@@ -1,7 +1,7 @@
 //! W through the bodies: never formed, one contact touches two bodies.
 
 use super::Operator;
-use crate::block::{Matrix, Vector, dot};
+use crate::block::{Matrix, Vector};
 
 /// In place of a body that impulses do not move.
 pub const NONE: u32 = u32::MAX;
@@ -13,18 +13,22 @@ pub const NONE: u32 = u32::MAX;
 #[derive(Clone, Debug, Default)]
 pub struct MatrixFree<const D: usize, const N: usize> {
     bodies: usize,
-    pairs: Vec<[u32; 2]>,
-    rows: Vec<[[[f64; N]; D]; 2]>,
-    diagonal: Vec<Matrix<D>>,
+    contacts: Vec<Contact<D, N>>,
+}
+
+/// All that a visit reads of a contact, side by side.
+#[derive(Clone, Copy, Debug)]
+struct Contact<const D: usize, const N: usize> {
+    pair: [u32; 2],
+    rows: [[[f64; N]; D]; 2],
+    diagonal: Matrix<D>,
 }
 
 impl<const D: usize, const N: usize> MatrixFree<D, N> {
     /// Empties it, for `bodies` bodies, keeping the memory.
     pub fn clear(&mut self, bodies: usize) {
         self.bodies = bodies;
-        self.pairs.clear();
-        self.rows.clear();
-        self.diagonal.clear();
+        self.contacts.clear();
     }
 
     /// Adds the contact of `pair` (indices below the number of bodies, or [`NONE`]) with the two blocks of its row of J.
@@ -32,44 +36,76 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         debug_assert!(pair.iter().all(|&b| b == NONE || (b as usize) < self.bodies));
         let counts = pair.map(|b| f64::from(u8::from(b != NONE)));
         let block = |i: usize, j: usize| (0..2).map(|side| counts[side] * dot(&rows[side][i], &rows[side][j])).sum();
-        self.diagonal.push(std::array::from_fn(|i| std::array::from_fn(|j| block(i, j))));
-        self.pairs.push(pair);
-        self.rows.push(rows);
+        let diagonal = std::array::from_fn(|i| std::array::from_fn(|j| block(i, j)));
+        self.contacts.push(Contact { pair, rows, diagonal });
     }
 
     /// The two bodies of contact `c`.
     pub fn pair(&self, c: usize) -> [u32; 2] {
-        self.pairs[c]
+        self.contacts[c].pair
     }
 
     /// How many contacts it has.
     pub fn len(&self) -> usize {
-        self.pairs.len()
+        self.contacts.len()
     }
 
     /// Whether it has none.
     pub fn is_empty(&self) -> bool {
-        self.pairs.is_empty()
+        self.contacts.is_empty()
     }
 
     /// The block W_cd, for those who want it stored.
     pub(super) fn block(&self, c: usize, d: usize) -> Option<Matrix<D>> {
+        let (one, two) = (&self.contacts[c], &self.contacts[d]);
         let mut sum = [[0.0; D]; D];
         let mut shared = false;
-        for (side_c, &body) in self.pairs[c].iter().enumerate() {
-            for (side_d, &other) in self.pairs[d].iter().enumerate() {
+        for (rows, &body) in one.rows.iter().zip(&one.pair) {
+            for (others, &other) in two.rows.iter().zip(&two.pair) {
                 if body == NONE || body != other {
                     continue;
                 }
                 shared = true;
                 for i in 0..D {
                     for j in 0..D {
-                        sum[i][j] += dot(&self.rows[c][side_c][i], &self.rows[d][side_d][j]);
+                        sum[i][j] += dot(&rows[i], &others[j]);
                     }
                 }
             }
         }
         shared.then_some(sum)
+    }
+}
+
+/// The state of a body, zero for [`NONE`].
+#[inline(always)]
+fn read<const N: usize>(state: &[[f64; N]], body: u32) -> [f64; N] {
+    if body == NONE { [0.0; N] } else { state[body as usize] }
+}
+
+/// Rows times the states of the two bodies.
+#[inline(always)]
+fn relative<const D: usize, const N: usize>(rows: &[[[f64; N]; D]; 2], y: &[[f64; N]; 2]) -> Vector<D> {
+    std::array::from_fn(|i| dot(&rows[0][i], &y[0]) + dot(&rows[1][i], &y[1]))
+}
+
+/// Writes y + Jᵀ Δr, whole: the next visit reads it in the same pieces, straight from the store buffer.
+#[inline(always)]
+fn write<const D: usize, const N: usize>(
+    state: &mut [[f64; N]],
+    body: u32,
+    y: &[f64; N],
+    rows: &[[f64; N]; D],
+    change: &Vector<D>,
+) {
+    if body != NONE {
+        state[body as usize] = std::array::from_fn(|k| {
+            let mut sum = y[k];
+            for i in 0..D {
+                sum += rows[i][k] * change[i];
+            }
+            sum
+        });
     }
 }
 
@@ -80,40 +116,56 @@ impl<const D: usize, const N: usize> Operator<D> for MatrixFree<D, N> {
         state.clear();
         state.resize(self.bodies, [0.0; N]);
         for (c, r) in r.iter().enumerate() {
-            self.add(state, c, r);
+            self.relax(state, c, |_, _| *r);
         }
     }
 
     #[inline]
     fn diagonal(&self, c: usize) -> &Matrix<D> {
-        &self.diagonal[c]
+        &self.contacts[c].diagonal
     }
 
     #[inline]
     fn apply(&self, state: &Self::State, c: usize) -> Vector<D> {
-        let mut u = [0.0; D];
-        for (row, &body) in self.rows[c].iter().zip(&self.pairs[c]) {
-            if body != NONE {
-                let y = &state[body as usize];
-                for i in 0..D {
-                    u[i] += dot(&row[i], y);
-                }
-            }
-        }
-        u
+        let Contact { pair, rows, .. } = &self.contacts[c];
+        relative(rows, &[read(state, pair[0]), read(state, pair[1])])
     }
 
-    #[inline]
-    fn add(&self, state: &mut Self::State, c: usize, change: &Vector<D>) {
-        for (row, &body) in self.rows[c].iter().zip(&self.pairs[c]) {
-            if body != NONE {
-                let y = &mut state[body as usize];
-                for k in 0..N {
-                    for i in 0..D {
-                        y[k] += row[i][k] * change[i];
-                    }
-                }
-            }
+    /// Greedy: each contact, in its number's order, takes the first colour that neither of its bodies has; sorted by colour, then
+    /// number. Colours beyond the sixty-third, which only a body with as many contacts needs, are the last one's.
+    fn colour(&self, order: &mut [u32]) {
+        let mut taken = vec![0_u64; self.bodies];
+        let mut colours = Vec::with_capacity(self.contacts.len());
+        for Contact { pair, .. } in &self.contacts {
+            let bodies = || pair.iter().filter(|&&body| body != NONE).map(|&body| body as usize);
+            let used = bodies().fold(0, |used, body| used | taken[body]);
+            let colour = used.trailing_ones().min(63);
+            bodies().for_each(|body| taken[body] |= 1 << colour);
+            colours.push(colour);
+        }
+        order.sort_by_key(|&c| (colours[c as usize], c));
+    }
+
+    #[inline(always)]
+    fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<D>, Vector<D>) -> Vector<D>) {
+        let state = state.as_mut_slice();
+        let Contact { pair, rows, diagonal } = &self.contacts[c];
+        let y = [read(state, pair[0]), read(state, pair[1])];
+        let change = visit(diagonal, relative(rows, &y));
+        // Looking first pays twice: nothing is written, and the next visit need not wait for it.
+        if change != [0.0; D] {
+            write(state, pair[0], &y[0], &rows[0], &change);
+            write(state, pair[1], &y[1], &rows[1], &change);
         }
     }
+}
+
+/// a · b with even and odd terms summed apart: half the additions to wait for, and a shape that processors have registers for.
+#[inline(always)]
+fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    let mut sums = [0.0; 2];
+    for k in 0..N {
+        sums[k % 2] = if k < 2 { a[k] * b[k] } else { sums[k % 2] + a[k] * b[k] };
+    }
+    sums[0] + sums[1]
 }

@@ -1,0 +1,123 @@
+//! The paper's comparison (section 5): one scene, one start, several solvers.
+
+use crate::observe::OutputError;
+use crate::run::{End, run};
+use crate::space::Space;
+use crate::step::{StepRecord, Workspace, step};
+use crate::world::World;
+use moreau_solve::{GlobalMethod, HistoryRow, LocalMethod};
+use std::sync::atomic::AtomicBool;
+
+/// One pair of methods.
+pub type Methods = (GlobalMethod, LocalMethod);
+
+/// What one pair of methods did.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The methods.
+    pub methods: Methods,
+    /// How the run ended.
+    pub end: End,
+    /// Steps done.
+    pub steps: u64,
+    /// Steps whose solve did not meet its criterion.
+    pub unconverged: u64,
+    /// Mean number of sweeps a step.
+    pub sweeps: f64,
+    /// Seconds of the whole run, least of the repetitions.
+    pub seconds_total: f64,
+    /// Seconds for contact impulses, in the same repetition.
+    pub seconds_solve: f64,
+    /// Residual after each sweep of the chosen step.
+    pub history: Vec<HistoryRow>,
+    /// Greatest difference of a body's velocity from the first method's after the chosen step, taken from the same state by both;
+    /// relative to the greatest velocity, or to what the step's free motion gives where all is at rest.
+    pub disagreement: f64,
+}
+
+/// The chosen step in which solvers are compared sweep by sweep, with the state before it.
+pub struct Probe<S: Space<D, N>, const D: usize, const N: usize> {
+    before: World<S, D, N>,
+    after: World<S, D, N>,
+}
+
+impl<S: Space<D, N>, const D: usize, const N: usize> Probe<S, D, N> {
+    /// Advances a copy of `start` to just before step number `number` (from 1) with the scene's own solver, and through it.
+    /// `None` if the run fails on its way.
+    pub fn new(start: &World<S, D, N>, number: u64, stop: &AtomicBool) -> Result<Option<Self>, OutputError> {
+        let mut before = start.clone();
+        let outcome = run(&mut before, &mut Workspace::default(), number.saturating_sub(1), &mut [], stop, |_| {})?;
+        let mut after = before.clone();
+        let arrived = outcome.end == End::Done && step(&mut after, &mut Workspace::default()).is_ok();
+        Ok(arrived.then_some(Self { before, after }))
+    }
+
+    /// Takes the step with `methods`: residuals by sweep, and the greatest relative difference in velocity.
+    fn take(&self, methods: Methods) -> (Vec<HistoryRow>, f64) {
+        let mut world = self.before.clone();
+        let solver = &mut world.settings.solver;
+        (solver.global, solver.local, solver.history) = (methods.0, methods.1, true);
+        let mut work = Workspace::default();
+        if step(&mut world, &mut work).is_err() {
+            return (Vec::new(), f64::INFINITY);
+        }
+        (work.history().to_vec(), disagreement(&self.after, &world))
+    }
+}
+
+/// max |v − v'| / max |v|, velocities of surface points: spins count by the radius. The scale is at least g h.
+pub fn disagreement<S: Space<D, N>, const D: usize, const N: usize>(a: &World<S, D, N>, b: &World<S, D, N>) -> f64 {
+    use crate::shape::Shape;
+    let speed = |v: &[f64; N], radius: f64| {
+        let weight = |k: usize| if k < D { 1.0 } else { radius };
+        (0..N).map(|k| (weight(k) * v[k]).powi(2)).sum::<f64>().sqrt()
+    };
+    let gravity = a.gravity.iter().map(|g| g * g).sum::<f64>().sqrt() * a.settings.h;
+    let (mut difference, mut scale) = (0.0_f64, gravity);
+    for i in 0..a.bodies.len() {
+        let radius = a.bodies.shape[i].bounding_radius().unwrap_or(0.0);
+        let (v, w) = (&a.bodies.velocity[i], &b.bodies.velocity[i]);
+        difference = difference.max(speed(&std::array::from_fn(|k| v[k] - w[k]), radius));
+        scale = scale.max(speed(v, radius));
+    }
+    if difference == 0.0 { 0.0 } else { difference / scale }
+}
+
+/// Runs a copy of `start` for `steps` steps with `methods`, `repeat` times; the fastest counts.
+///
+/// # Errors
+/// None of its own; the type is that of [`run`].
+pub fn compare_one<S: Space<D, N>, const D: usize, const N: usize>(
+    start: &World<S, D, N>,
+    probe: Option<&Probe<S, D, N>>,
+    methods: Methods,
+    (steps, repeat): (u64, usize),
+    stop: &AtomicBool,
+    mut progress: impl FnMut(&StepRecord),
+) -> Result<Row, OutputError> {
+    let (history, disagreement) = probe.map_or((Vec::new(), f64::NAN), |probe| probe.take(methods));
+    let mut once = || -> Result<Row, OutputError> {
+        let mut world = start.clone();
+        (world.settings.solver.global, world.settings.solver.local) = methods;
+        let outcome = run(&mut world, &mut Workspace::default(), steps, &mut [], stop, &mut progress)?;
+        Ok(Row {
+            methods,
+            end: outcome.end,
+            steps: outcome.summary.steps(),
+            unconverged: outcome.summary.unconverged(),
+            sweeps: outcome.summary.sweeps_mean(),
+            seconds_total: outcome.seconds_total,
+            seconds_solve: outcome.summary.seconds_solve(),
+            history: history.clone(),
+            disagreement,
+        })
+    };
+    let mut best = once()?;
+    for _ in 1..repeat {
+        let row = once()?;
+        if row.seconds_total < best.seconds_total {
+            best = row;
+        }
+    }
+    Ok(best)
+}

@@ -1,0 +1,55 @@
+//! Contacts that read the same in both dimensions: round bodies, and corners, on each other and on flat boundaries.
+
+use super::vector::{NO_DIRECTION, along, dot, sub};
+
+/// Two round bodies (centre, radius). Where the centres coincide every direction is as good as another; the last axis is taken.
+#[inline]
+pub(super) fn two_round<const D: usize>(
+    (centre_a, radius_a): ([f64; D], f64),
+    (centre_b, radius_b): ([f64; D], f64),
+    reach: f64,
+    emit: &mut impl FnMut(u32, [f64; D], [f64; D], f64),
+) {
+    let between = sub(centre_b, centre_a);
+    let square = dot(between, between);
+    let distance = square.sqrt();
+    let gap = distance - (radius_a + radius_b);
+    if gap <= reach {
+        let normal = if square > NO_DIRECTION { between.map(|x| x / distance) } else { last_axis() };
+        let (on_a, on_b) = (along(centre_a, radius_a, normal), along(centre_b, -radius_b, normal));
+        emit(0, std::array::from_fn(|k| 0.5 * (on_a[k] + on_b[k])), normal, gap);
+    }
+}
+
+/// A round body (first) over a flat boundary through `on_wall` with this outward normal.
+#[inline]
+pub(super) fn round_on_wall<const D: usize>(
+    (centre, radius): ([f64; D], f64),
+    (on_wall, outward): ([f64; D], [f64; D]),
+    reach: f64,
+    emit: &mut impl FnMut(u32, [f64; D], [f64; D], f64),
+) {
+    let gap = dot(outward, sub(centre, on_wall)) - radius;
+    if gap <= reach {
+        emit(0, along(centre, -(radius + 0.5 * gap), outward), outward.map(|x| -x), gap);
+    }
+}
+
+/// One corner (world) of a body over a flat boundary.
+#[inline]
+pub(super) fn corner_on_wall<const D: usize>(
+    feature: u32,
+    corner: [f64; D],
+    (on_wall, outward): ([f64; D], [f64; D]),
+    reach: f64,
+    emit: &mut impl FnMut(u32, [f64; D], [f64; D], f64),
+) {
+    let gap = dot(outward, sub(corner, on_wall));
+    if gap <= reach {
+        emit(feature, along(corner, -0.5 * gap, outward), outward.map(|x| -x), gap);
+    }
+}
+
+fn last_axis<const D: usize>() -> [f64; D] {
+    std::array::from_fn(|k| if k + 1 == D { 1.0 } else { 0.0 })
+}

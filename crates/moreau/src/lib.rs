@@ -1,0 +1,17 @@
+//! moreau computes how many rigid bodies move when they touch: nonsmooth contact dynamics, Moreau-Jean time stepping.
+
+pub mod bodies;
+pub mod compare;
+pub mod contacts;
+pub mod detect;
+pub mod io;
+pub mod laws;
+pub mod observe;
+pub mod run;
+pub mod scene;
+pub mod shape;
+pub mod space;
+pub mod step;
+pub mod world;
+
+pub use moreau_solve as solve;

@@ -1,0 +1,72 @@
+//! Observers: who sees each step, and what is written of it.
+//!
+//! A [`Frame`] is a borrowed view of the world after a step. Adding an output is a file, and a row in [`OUTPUTS`].
+
+mod steps;
+mod summary;
+mod vtk;
+
+pub use steps::StepsCsv;
+pub use summary::Summary;
+pub use vtk::VtkOutput;
+
+use crate::space::Space;
+use crate::step::{Localised, StepRecord};
+use crate::world::World;
+use moreau_solve::Row;
+use std::path::PathBuf;
+
+/// The table of outputs.
+pub const OUTPUTS: &[Row] = &[
+    Row { name: "steps", about: "steps.csv: a row a step with sweeps, residuals, penetration, energies, seconds" },
+    Row { name: "vtk", about: "vtk/: bodies and contacts for ParaView, binary and compressed, with .pvd collections" },
+];
+
+/// What an observer sees after a step; `record` is `None` for the state at the start.
+pub struct Frame<'a, S: Space<D, N>, const D: usize, const N: usize> {
+    /// Bodies, laws, time.
+    pub world: &'a World<S, D, N>,
+    /// The contacts of the last step, sorted by key.
+    pub contacts: &'a [Localised<D>],
+    /// What the step tells of itself.
+    pub record: Option<&'a StepRecord>,
+}
+
+/// A file that cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// By the operating system's word.
+    #[error("cannot write {path}: {source}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// By the VTK writer's word.
+    #[error(transparent)]
+    Vtk(#[from] crate::io::vtk::VtkError),
+}
+
+impl OutputError {
+    pub(crate) fn io(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
+        move |source| OutputError::Io { path: path.to_owned(), source }
+    }
+}
+
+/// Someone who looks at every step.
+pub trait Observer<S: Space<D, N>, const D: usize, const N: usize>: Send {
+    /// Sees one frame.
+    ///
+    /// # Errors
+    /// Where what it writes cannot be written.
+    fn see(&mut self, frame: &Frame<'_, S, D, N>) -> Result<(), OutputError>;
+
+    /// Completes its files; called once at the end, also of a run that was interrupted.
+    ///
+    /// # Errors
+    /// Where they cannot be written.
+    fn finish(&mut self) -> Result<(), OutputError> {
+        Ok(())
+    }
+}

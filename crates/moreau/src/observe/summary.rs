@@ -1,0 +1,102 @@
+//! What a whole run comes to: the numbers of `summary.json`.
+
+use crate::step::StepRecord;
+use crate::world::StepSettings;
+use serde_json::{Value, json};
+
+/// Sums and extremes over the steps of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Summary {
+    steps: u64,
+    contacts: u64,
+    sweeps: u64,
+    sweeps_max: u64,
+    unconverged: u64,
+    eps_glob_max: f64,
+    scaled_max: f64,
+    penetration_max: f64,
+    balance_error_max: f64,
+    detect: f64,
+    localise: f64,
+    solve: f64,
+    last: StepRecord,
+}
+
+impl Summary {
+    /// Adds a step.
+    pub fn add(&mut self, record: &StepRecord) {
+        self.steps += 1;
+        self.contacts += record.contacts as u64;
+        self.sweeps += record.sweeps;
+        self.sweeps_max = self.sweeps_max.max(record.sweeps);
+        self.unconverged += u64::from(!record.converged());
+        self.eps_glob_max = self.eps_glob_max.max(record.residual.eps_glob.total());
+        self.scaled_max = self.scaled_max.max(record.residual.scaled);
+        self.penetration_max = self.penetration_max.max(record.penetration);
+        self.balance_error_max = self.balance_error_max.max(record.energy.balance_error.abs());
+        self.detect += record.seconds.detect;
+        self.localise += record.seconds.localise;
+        self.solve += record.seconds.solve;
+        self.last = record.clone();
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Steps whose solve did not meet its criterion.
+    pub fn unconverged(&self) -> u64 {
+        self.unconverged
+    }
+
+    /// Mean number of sweeps a step.
+    pub fn sweeps_mean(&self) -> f64 {
+        mean(self.sweeps, self.steps)
+    }
+
+    /// Seconds spent on contact impulses.
+    pub fn seconds_solve(&self) -> f64 {
+        self.solve
+    }
+
+    /// The object of `summary.json`; `total` and `output` are seconds of the whole run and of its files.
+    pub fn to_json(&self, bodies: usize, settings: &StepSettings, threads: usize, total: f64, output: f64) -> Value {
+        let (energy, solver) = (&self.last.energy, &settings.solver);
+        json!({
+            "steps": self.steps,
+            "bodies": bodies,
+            "time": self.last.time,
+            "contacts_last": self.last.contacts,
+            "contacts_mean": mean(self.contacts, self.steps),
+            "sweeps_mean": self.sweeps_mean(),
+            "sweeps_max": self.sweeps_max,
+            "unconverged_steps": self.unconverged,
+            "eps_glob_max": self.eps_glob_max,
+            "scaled_residual_max": self.scaled_max,
+            "penetration_max": self.penetration_max,
+            "energy": {
+                "kinetic": energy.kinetic,
+                "potential": energy.potential,
+                "work": energy.work,
+                "dissipated": energy.dissipated,
+                "balance_error": energy.balance_error,
+                "balance_error_max": self.balance_error_max,
+            },
+            "seconds": {
+                "total": total,
+                "detect": self.detect,
+                "localise": self.localise,
+                "solve": self.solve,
+                "output": output,
+            },
+            "threads": threads,
+            "solver": { "global": solver.global.name(), "local": solver.local.name(), "tolerance": solver.tolerance },
+            "version": env!("CARGO_PKG_VERSION"),
+        })
+    }
+}
+
+fn mean(sum: u64, count: u64) -> f64 {
+    if count == 0 { 0.0 } else { sum as f64 / count as f64 }
+}

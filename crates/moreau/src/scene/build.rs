@@ -1,0 +1,156 @@
+//! From a scene to a world: the bodies in the order of the scene, then the walls of containers, then what is generated.
+
+use super::dimension::{SceneSpace, velocity_in_body};
+use super::error::Fault;
+use super::generate::{Arrangement, Generate};
+use super::lattice::Sites;
+use super::packing::pack;
+use super::path::key_path;
+use super::random::Random;
+use super::spec::{BodySpec, Container, MotionKind};
+use super::{Scene, start};
+use crate::bodies::{Bodies, Body, Motion};
+use crate::laws::Laws;
+use crate::space::Pose;
+use crate::world::{StepSettings, World};
+
+/// Makes the world of a scene that passed the checks.
+pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene) -> Result<World<S, D, N>, Fault> {
+    let mut bodies = Bodies::default();
+    for body in &scene.bodies {
+        if let Some(body) = explicit::<S, D, N>(scene, body) {
+            bodies.push(body);
+        }
+    }
+    for container in &scene.containers {
+        walls::<S, D, N>(scene, container, &mut bodies);
+    }
+    for (i, generate) in scene.generate.iter().enumerate() {
+        generated::<S, D, N>(scene, i, generate, &mut bodies)?;
+    }
+    start::check(scene, &bodies)?;
+    let solver = &scene.solver;
+    let settings = StepSettings {
+        h: scene.time.step,
+        theta: scene.time.theta,
+        start: solver.start,
+        on_failure: solver.on_failure,
+        solver: solver.settings(),
+    };
+    Ok(World { bodies, laws: laws(scene), gravity: vector(&scene.gravity), settings, time: 0.0, steps: 0 })
+}
+
+fn laws(scene: &Scene) -> Laws {
+    let mut laws = Laws::new(scene.materials.len(), scene.default_law);
+    for pair in &scene.laws {
+        if let [a, b] = pair.between.as_slice() {
+            laws.set(material(scene, a), material(scene, b), pair.law);
+        }
+    }
+    laws
+}
+
+/// Materials are numbered in the order of their names.
+fn material(scene: &Scene, name: &str) -> u16 {
+    scene.materials.keys().position(|known| known == name).unwrap_or(0) as u16
+}
+
+fn density(scene: &Scene, name: &str) -> f64 {
+    scene.materials.get(name).map_or(0.0, |material| material.density)
+}
+
+/// A vector of the scene; an empty one is zero.
+fn vector<const D: usize>(numbers: &[f64]) -> [f64; D] {
+    std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))
+}
+
+fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, spec: &BodySpec) -> Option<Body<S, D, N>> {
+    let rotation = S::rotation(spec.orientation.as_ref());
+    let (shape, pose) = S::place(&spec.shape, vector(&spec.position), rotation)?;
+    let velocity = S::join(vector(&spec.velocity), spec.spin.as_ref());
+    Some(Body {
+        shape,
+        velocity: velocity_in_body::<S, D, N>(pose.rotation, &velocity),
+        pose,
+        density: density(scene, &spec.material),
+        material: material(scene, &spec.material),
+        motion: if spec.motion() == MotionKind::Free { Motion::Free } else { Motion::Driven },
+        load: S::join(vector(&spec.force), spec.torque.as_ref()),
+    })
+}
+
+fn walls<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, spec: &Container, bodies: &mut Bodies<S, D, N>) {
+    let (min, max): ([f64; D], [f64; D]) = (vector(&spec.min), vector(&spec.max));
+    for (axis, high, _) in spec.walls() {
+        let mut position = std::array::from_fn(|k| 0.5 * (min[k] + max[k]));
+        position[axis] = if high { max[axis] } else { min[axis] };
+        let mut normal = [0.0; D];
+        normal[axis] = if high { -1.0 } else { 1.0 };
+        let (shape, pose) = S::wall(position, normal);
+        bodies.push(Body {
+            shape,
+            pose,
+            velocity: [0.0; N],
+            density: density(scene, &spec.material),
+            material: material(scene, &spec.material),
+            motion: Motion::Driven,
+            load: [0.0; N],
+        });
+    }
+}
+
+fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
+    scene: &Scene,
+    index: usize,
+    spec: &Generate,
+    bodies: &mut Bodies<S, D, N>,
+) -> Result<(), Fault> {
+    let [mut sizes, mut places, mut speeds] = Random::three(spec.seed.unwrap_or(index as u64));
+    let count = usize::try_from(spec.number(D)).unwrap_or(usize::MAX);
+    let radii = spec.radii.draw(count, D, &mut sizes).ok_or_else(|| {
+        let message = "next to nothing of the distribution lies between min and max";
+        Fault::new(key_path!["generate", index, "radii"], message, "expected an interval around the median")
+    })?;
+    let centres = centres::<D>(index, spec, &radii, &mut places)?;
+    let (material, density) = (material(scene, &spec.material), density(scene, &spec.material));
+    let common = S::join(vector(&spec.velocity), spec.spin.as_ref());
+    for (radius, position) in radii.into_iter().zip(centres) {
+        let mut velocity = common;
+        if spec.speed > 0.0 {
+            let direction: [f64; D] = speeds.direction();
+            for k in 0..D {
+                velocity[k] += spec.speed * direction[k];
+            }
+        }
+        let pose = Pose { position, rotation: S::IDENTITY };
+        bodies.push(Body { shape: S::round(radius), pose, velocity, density, material, motion: Motion::Free, load: [0.0; N] });
+    }
+    Ok(())
+}
+
+fn centres<const D: usize>(index: usize, spec: &Generate, radii: &[f64], random: &mut Random) -> Result<Vec<[f64; D]>, Fault> {
+    match spec.arrangement() {
+        Some(Arrangement::Lattice(lattice)) => {
+            let sites = Sites::new(lattice, spec.radii.largest(), D);
+            let room = 0.5 * lattice.jitter * (sites.spacing() - 2.0 * spec.radii.largest()).max(0.0);
+            let mut centres = sites.first::<D>(radii.len());
+            if room > 0.0 {
+                for centre in &mut centres {
+                    let step: [f64; D] = random.in_ball();
+                    *centre = std::array::from_fn(|k| centre[k] + room * step[k]);
+                }
+            }
+            Ok(centres)
+        }
+        Some(Arrangement::Packing(packing)) => {
+            let (min, max) = (vector(&packing.min), vector(&packing.max));
+            pack(radii, &min, &max, packing.tries, random).map_err(|placed| {
+                let message =
+                    format!("{placed} of {} bodies fit: the next found no room in {} tries", radii.len(), packing.tries);
+                let hint = "expected fewer bodies, a larger region, more tries, or a lattice";
+                Fault::new(key_path!["generate", index, "packing"], message, hint)
+            })
+        }
+        None => Ok(Vec::new()),
+    }
+}

@@ -1,0 +1,142 @@
+//! What a scene makes differently in the plane and in space: shapes, orientations and velocities.
+
+use super::spec::ShapeSpec;
+use super::values::{Angular, Numbers, Orientation, Turn};
+use crate::shape::plane::{Disk, HalfPlane, Polygon};
+use crate::shape::solid::{Ball, Cuboid, HalfSpace};
+use crate::space::{Plane, Pose, Solid, Space};
+use glam::{DQuat, DVec3};
+
+/// Turns what a scene says into the terms of one dimension. Only scenes that passed the checks come here.
+pub(super) trait SceneSpace<const D: usize, const N: usize>: Space<D, N> {
+    /// A shape in its place: where its centre of mass is and how its principal frame is turned; `None` for one of the other
+    /// dimension.
+    fn place(spec: &ShapeSpec, position: [f64; D], rotation: Self::Rotation) -> Option<Placed<Self, D, N>>;
+
+    /// A ball or a disk.
+    fn round(radius: f64) -> Self::Shape;
+
+    /// A half-space or half-plane with a normal of length 1 through `position`.
+    fn wall(position: [f64; D], normal: [f64; D]) -> Placed<Self, D, N>;
+
+    /// The orientation that a scene gives.
+    fn rotation(orientation: Option<&Orientation>) -> Self::Rotation;
+
+    /// A velocity of the centre of mass and a spin or a force and a torque, both in the world frame, as one vector.
+    fn join(linear: [f64; D], angular: Option<&Angular>) -> [f64; N];
+}
+
+/// A shape and where it is.
+pub(super) type Placed<S, const D: usize, const N: usize> = (<S as Space<D, N>>::Shape, Pose<<S as Space<D, N>>::Rotation, D>);
+
+/// A velocity with its spin in the world frame, as the body with this orientation has it: spins live in the body's own frame.
+pub(super) fn velocity_in_body<S: Space<D, N>, const D: usize, const N: usize>(
+    rotation: S::Rotation,
+    world: &[f64; N],
+) -> [f64; N] {
+    // Velocities and loads split alike: the first part in the world, the second in the body.
+    S::load_in_body(rotation, world)
+}
+
+/// The vector of length 1 along `v`.
+fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
+}
+
+impl SceneSpace<2, 3> for Plane {
+    fn place(spec: &ShapeSpec, position: [f64; 2], rotation: [f64; 2]) -> Option<Placed<Self, 2, 3>> {
+        match spec {
+            ShapeSpec::Disk { radius } => Some((Self::round(*radius), Pose { position, rotation })),
+            ShapeSpec::HalfPlane { normal: Numbers(normal) } => Some(Self::wall(position, unit(*normal))),
+            ShapeSpec::Polygon { vertices } => {
+                let (shape, centroid) = Polygon::new(vertices.iter().map(|v| v.0).collect()).ok()?;
+                let [x, y] = Self::rotate(rotation, centroid);
+                Some((shape.into(), Pose { position: [position[0] + x, position[1] + y], rotation }))
+            }
+            _ => None,
+        }
+    }
+
+    fn round(radius: f64) -> Self::Shape {
+        Disk { radius }.into()
+    }
+
+    fn wall(position: [f64; 2], [x, y]: [f64; 2]) -> Placed<Self, 2, 3> {
+        // The rotation that takes (0, 1) to the normal.
+        (HalfPlane.into(), Pose { position, rotation: [y, -x] })
+    }
+
+    /// Sines and cosines come from the system's mathematics library and may differ in their last bit between systems.
+    fn rotation(orientation: Option<&Orientation>) -> [f64; 2] {
+        match orientation {
+            Some(Orientation::Angle(angle)) => [angle.cos(), angle.sin()],
+            Some(Orientation::Turn(turn)) => {
+                let (sine, cosine) = sin_cos(turn, 1.0);
+                [cosine, sine]
+            }
+            Some(Orientation::Quaternion(_)) | None => Self::IDENTITY,
+        }
+    }
+
+    fn join([x, y]: [f64; 2], angular: Option<&Angular>) -> [f64; 3] {
+        [x, y, if let Some(Angular::Plane(spin)) = angular { *spin } else { 0.0 }]
+    }
+}
+
+impl SceneSpace<3, 6> for Solid {
+    fn place(spec: &ShapeSpec, position: [f64; 3], rotation: DQuat) -> Option<Placed<Self, 3, 6>> {
+        match spec {
+            ShapeSpec::Ball { radius } => Some((Self::round(*radius), Pose { position, rotation })),
+            ShapeSpec::Box { size: Numbers(size) } => {
+                Some((Cuboid { half: size.map(|edge| 0.5 * edge) }.into(), Pose { position, rotation }))
+            }
+            ShapeSpec::HalfSpace { normal: Numbers(normal) } => Some(Self::wall(position, unit(*normal))),
+            _ => None,
+        }
+    }
+
+    fn round(radius: f64) -> Self::Shape {
+        Ball { radius }.into()
+    }
+
+    fn wall(position: [f64; 3], normal: [f64; 3]) -> Placed<Self, 3, 6> {
+        (HalfSpace.into(), Pose { position, rotation: DQuat::from_rotation_arc(DVec3::Z, normal.into()) })
+    }
+
+    /// Sines and cosines come from the system's mathematics library and may differ in their last bit between systems.
+    fn rotation(orientation: Option<&Orientation>) -> DQuat {
+        match orientation {
+            Some(Orientation::Quaternion(q)) => {
+                q.as_slice().try_into().map_or(DQuat::IDENTITY, |q: [f64; 4]| DQuat::from_array(q).normalize())
+            }
+            Some(Orientation::Turn(turn)) => {
+                let (sine, cosine) = sin_cos(turn, 0.5);
+                let [x, y, z] = unit(turn.axis.map_or([0.0, 0.0, 1.0], |axis| axis.0)).map(|x| sine * x);
+                DQuat::from_xyzw(x, y, z, cosine)
+            }
+            Some(Orientation::Angle(_)) | None => DQuat::IDENTITY,
+        }
+    }
+
+    fn join([x, y, z]: [f64; 3], angular: Option<&Angular>) -> [f64; 6] {
+        let [a, b, c] = match angular {
+            Some(Angular::Solid(v)) => v.as_slice().try_into().unwrap_or([0.0; 3]),
+            _ => [0.0; 3],
+        };
+        [x, y, z, a, b, c]
+    }
+}
+
+/// Sine and cosine of a part of a turn's angle; whole quarter turns in degrees are exact.
+fn sin_cos(turn: &Turn, part: f64) -> (f64, f64) {
+    let Some(degrees) = turn.degrees else { return (part * turn.angle.unwrap_or(0.0)).sin_cos() };
+    let degrees = (part * degrees) % 360.0;
+    match degrees {
+        0.0 => (0.0, 1.0),
+        90.0 | -270.0 => (1.0, 0.0),
+        180.0 | -180.0 => (0.0, -1.0),
+        270.0 | -90.0 => (-1.0, 0.0),
+        _ => degrees.to_radians().sin_cos(),
+    }
+}

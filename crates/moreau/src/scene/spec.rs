@@ -1,0 +1,301 @@
+//! What a scene file can say, apart from the generators: the types that are read from it.
+//!
+//! Everything is in SI units. The comments here are the reference of the format: they become the descriptions of the JSON schema.
+
+use super::values::{Angular, Numbers, Orientation};
+use crate::world::{OnFailure, Start};
+use moreau_solve::{Criterion, GlobalMethod, Law, LocalMethod, Order, Parameter, Settings};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How time advances.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// Length of a step h, s.
+    pub step: f64,
+    /// How many steps the run takes.
+    pub steps: u64,
+    /// θ of the θ-method, from 0.5 (the midpoint, which keeps energy) to 1 (implicit Euler).
+    #[serde(default = "Time::half")]
+    pub theta: f64,
+}
+
+impl Time {
+    fn half() -> f64 {
+        0.5
+    }
+}
+
+/// How the contact problem of each step is solved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Solver {
+    /// The method over all contacts.
+    pub global: GlobalMethod,
+    /// The method at one contact.
+    pub local: LocalMethod,
+    /// The measure that ends the sweeps.
+    pub criterion: Criterion,
+    /// The value of the measure at which a solve ends.
+    pub tolerance: f64,
+    /// After how many sweeps a solve is given up.
+    pub max_sweeps: u64,
+    /// The impulses with which a solve begins.
+    pub start: Start,
+    /// The order in which a sweep visits the contacts.
+    pub order: Order,
+    /// What to do when a solve reaches its limit of sweeps.
+    pub on_failure: OnFailure,
+    /// ρ of sbp, sal, ebp and eal: "auto", { relative = factor } or { absolute = kg }.
+    pub rho: Parameter,
+    /// γ of pdas: "auto", { relative = factor } or { absolute = kg }.
+    pub gamma: Parameter,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        let Settings { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, history: _ } = Settings::default();
+        let (start, on_failure) = (Start::default(), OnFailure::default());
+        Self { global, local, criterion, tolerance, max_sweeps, start, order, on_failure, rho, gamma }
+    }
+}
+
+impl Solver {
+    /// The settings of the contact solver.
+    pub fn settings(&self) -> Settings {
+        let Self { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, .. } = *self;
+        Settings { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, history: false }
+    }
+}
+
+/// What bodies are made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Density, kg/m³; in the plane kg/m².
+    pub density: f64,
+}
+
+/// The contact law of a pair of materials.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PairLaw {
+    /// The names of the two materials, in any order; the same twice for contacts within one material.
+    #[schemars(length(min = 2, max = 2))]
+    pub between: Vec<String>,
+    /// The law.
+    pub law: Law,
+}
+
+/// How a body moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionKind {
+    /// By forces and contacts.
+    Free,
+    /// Not at all.
+    Fixed,
+    /// With its velocity and spin as given, whatever touches it.
+    Driven,
+}
+
+/// One body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodySpec {
+    /// A name for output and messages; no two bodies may share one.
+    pub name: Option<String>,
+    /// Its form.
+    pub shape: ShapeSpec,
+    /// The name of its material.
+    pub material: String,
+    /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon the place of the
+    /// vertices' origin, so that the centre of mass is there plus the turned centroid.
+    pub position: Vec<f64>,
+    /// How it is turned: an angle in rad in the plane, a quaternion [x, y, z, w] in space, or in both a table such as
+    /// { axis = [0, 0, 1], degrees = 30 }, in the plane without the axis. Not for half-spaces, which have a normal.
+    pub orientation: Option<Orientation>,
+    /// Velocity of the centre of mass, m/s; default zero.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub velocity: Vec<f64>,
+    /// Spin, rad/s; default zero.
+    pub spin: Option<Angular>,
+    /// How it moves; default free, of half-spaces fixed.
+    pub motion: Option<MotionKind>,
+    /// A constant force on the centre of mass, N; default zero.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub force: Vec<f64>,
+    /// A constant torque, N·m; default zero.
+    pub torque: Option<Angular>,
+}
+
+/// The form of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum ShapeSpec {
+    /// A ball; in space.
+    Ball {
+        /// Its radius, m.
+        radius: f64,
+    },
+    /// A box; in space.
+    Box {
+        /// The lengths of its edges along its own axes, m.
+        size: Numbers<3>,
+    },
+    /// Everything below a plane; in space.
+    HalfSpace {
+        /// The direction out of it, of any length.
+        normal: Numbers<3>,
+    },
+    /// A disk; in the plane.
+    Disk {
+        /// Its radius, m.
+        radius: f64,
+    },
+    /// A convex polygon; in the plane.
+    Polygon {
+        /// Its vertices in order around it, m.
+        vertices: Vec<Numbers<2>>,
+    },
+    /// Everything below a line; in the plane.
+    HalfPlane {
+        /// The direction out of it, of any length.
+        normal: Numbers<2>,
+    },
+}
+
+impl ShapeSpec {
+    /// Its name in scene files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            ShapeSpec::Ball { .. } => "ball",
+            ShapeSpec::Box { .. } => "box",
+            ShapeSpec::HalfSpace { .. } => "half_space",
+            ShapeSpec::Disk { .. } => "disk",
+            ShapeSpec::Polygon { .. } => "polygon",
+            ShapeSpec::HalfPlane { .. } => "half_plane",
+        }
+    }
+
+    /// The number of coordinates that it lives in.
+    pub fn dimension(&self) -> usize {
+        match self {
+            ShapeSpec::Ball { .. } | ShapeSpec::Box { .. } | ShapeSpec::HalfSpace { .. } => 3,
+            ShapeSpec::Disk { .. } | ShapeSpec::Polygon { .. } | ShapeSpec::HalfPlane { .. } => 2,
+        }
+    }
+
+    /// Whether it goes on without end, so that it can only be fixed or driven.
+    pub fn is_unbounded(&self) -> bool {
+        matches!(self, ShapeSpec::HalfSpace { .. } | ShapeSpec::HalfPlane { .. })
+    }
+}
+
+/// A container: walls around a region, each a fixed half-space (half-plane) that looks inwards and goes on beyond the region's
+/// edges.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Container {
+    /// The lowest corner of the region, m.
+    pub min: Vec<f64>,
+    /// The highest corner of the region, m.
+    pub max: Vec<f64>,
+    /// The faces without a wall, for instance ["+z"].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub open: Vec<Face>,
+    /// The name of the walls' material.
+    pub material: String,
+}
+
+/// A face of a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Face {
+    /// The face of lowest x.
+    #[serde(rename = "-x")]
+    LowX,
+    /// The face of highest x.
+    #[serde(rename = "+x")]
+    HighX,
+    /// The face of lowest y.
+    #[serde(rename = "-y")]
+    LowY,
+    /// The face of highest y.
+    #[serde(rename = "+y")]
+    HighY,
+    /// The face of lowest z.
+    #[serde(rename = "-z")]
+    LowZ,
+    /// The face of highest z.
+    #[serde(rename = "+z")]
+    HighZ,
+}
+
+impl Face {
+    pub(super) const ALL: [(Face, &'static str); 6] = [
+        (Face::LowX, "-x"),
+        (Face::HighX, "+x"),
+        (Face::LowY, "-y"),
+        (Face::HighY, "+y"),
+        (Face::LowZ, "-z"),
+        (Face::HighZ, "+z"),
+    ];
+}
+
+impl Container {
+    /// The faces with a wall: axis, whether it is the high one, and its name.
+    pub(super) fn walls(&self) -> impl Iterator<Item = (usize, bool, &'static str)> {
+        let faces = Face::ALL.iter().enumerate().take(2 * self.min.len());
+        faces.filter(|(_, (face, _))| !self.open.contains(face)).map(|(i, &(_, name))| (i / 2, i % 2 == 1, name))
+    }
+}
+
+/// What a run writes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// The folder; where it is not given, the program chooses.
+    pub folder: Option<String>,
+    /// Steps between two frames; 0 for none. Default: a hundredth of all steps.
+    pub every: Option<u64>,
+    /// What is written.
+    pub kinds: Vec<OutputKind>,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { folder: None, every: None, kinds: vec![OutputKind::Vtk, OutputKind::Steps] }
+    }
+}
+
+/// One kind of output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OutputKind {
+    /// Frames for ParaView: bodies and contacts.
+    Vtk,
+    /// A table with a line for each step: sweeps, residuals, energies.
+    Steps,
+}
+
+/// What is asked of the first configuration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct StartSpec {
+    /// How far two bodies may overlap at the start, as a part of the smaller one's radius; more is an error.
+    pub max_overlap: f64,
+}
+
+impl Default for StartSpec {
+    fn default() -> Self {
+        Self { max_overlap: 1e-3 }
+    }
+}
+
+impl BodySpec {
+    /// How it moves: as given, else freely, and not at all where it goes on without end.
+    pub fn motion(&self) -> MotionKind {
+        self.motion.unwrap_or(if self.shape.is_unbounded() { MotionKind::Fixed } else { MotionKind::Free })
+    }
+}

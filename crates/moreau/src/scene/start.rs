@@ -1,0 +1,154 @@
+//! Checks of the bodies once they are made: masses, pairs of shapes that can touch, and overlaps.
+
+use super::Scene;
+use super::dimension::SceneSpace;
+use super::error::Fault;
+use super::path::{KeyPath, key_path};
+use crate::bodies::Bodies;
+use crate::contacts::Contact;
+use crate::detect::Detector;
+use crate::shape::Shape;
+use std::collections::BTreeMap;
+
+/// Which part of a scene made a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// The body of this index.
+    Body(usize),
+    /// A wall of the container of this index, and its face.
+    Wall(usize, &'static str),
+    /// The generator of this index, and the how-manieth of its bodies.
+    Generated(usize, usize),
+}
+
+impl Origin {
+    /// The origin of body `index` of the world.
+    pub(super) fn of(scene: &Scene, index: usize) -> Option<Self> {
+        if index < scene.bodies.len() {
+            return Some(Origin::Body(index));
+        }
+        let mut left = index - scene.bodies.len();
+        for (i, container) in scene.containers.iter().enumerate() {
+            let count = container.walls().count();
+            if let Some((_, _, face)) = container.walls().nth(left) {
+                return Some(Origin::Wall(i, face));
+            }
+            left -= count;
+        }
+        for (i, generate) in scene.generate.iter().enumerate() {
+            let count = usize::try_from(generate.number(scene.dimension.number())).unwrap_or(usize::MAX);
+            if left < count {
+                return Some(Origin::Generated(i, left));
+            }
+            left -= count;
+        }
+        None
+    }
+
+    fn path(self) -> KeyPath {
+        match self {
+            Origin::Body(i) => key_path!["bodies", i],
+            Origin::Wall(i, _) => key_path!["containers", i],
+            Origin::Generated(i, _) => key_path!["generate", i],
+        }
+    }
+
+    /// Words for messages: `bodies[3] "hammer"`.
+    pub(super) fn label(self, scene: &Scene) -> String {
+        match self {
+            Origin::Body(i) => match scene.bodies.get(i).and_then(|body| body.name.as_ref()) {
+                Some(name) => format!("bodies[{i}] {name:?}"),
+                None => format!("bodies[{i}]"),
+            },
+            Origin::Wall(i, face) => format!("wall {face} of containers[{i}]"),
+            Origin::Generated(i, k) => format!("number {k} of generate[{i}]"),
+        }
+    }
+}
+
+/// The fault of one body of the world; `part` is where in the scene's words for it.
+fn fault(scene: &Scene, index: usize, part: &str, message: String, hint: &str) -> Fault {
+    let path = match Origin::of(scene, index) {
+        Some(origin @ Origin::Body(_)) if !part.is_empty() => origin.path().then(part),
+        Some(origin) => origin.path(),
+        None => KeyPath::default(),
+    };
+    Fault::new(path, message, hint)
+}
+
+fn label(scene: &Scene, index: usize) -> String {
+    Origin::of(scene, index).map_or_else(|| format!("body {index}"), |origin| origin.label(scene))
+}
+
+pub(super) fn check<S: SceneSpace<D, N>, const D: usize, const N: usize>(
+    scene: &Scene,
+    bodies: &Bodies<S, D, N>,
+) -> Result<(), Fault> {
+    masses(scene, bodies)?;
+    pairs(scene, bodies)?;
+    overlaps(scene, bodies)
+}
+
+/// Positive numbers can still have a product that is too small or too large for a number.
+fn masses<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, bodies: &Bodies<S, D, N>) -> Result<(), Fault> {
+    let free = |i: &usize| bodies.is_free(*i);
+    let bad = (0..bodies.len())
+        .filter(free)
+        .find(|&i| bodies.mass[i].iter().chain(&bodies.inverse_mass[i]).any(|x| !(x.is_finite() && *x > 0.0)));
+    bad.map_or(Ok(()), |i| {
+        let message =
+            format!("{} has the mass {} kg and no finite inverse of mass and inertia", label(scene, i), bodies.mass[i][0]);
+        Err(fault(scene, i, "shape", message, "expected a size and a density that bodies have"))
+    })
+}
+
+/// Every two kinds of shape that may touch need a row in the table of pairs.
+fn pairs<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, bodies: &Bodies<S, D, N>) -> Result<(), Fault> {
+    // The first two bodies of each kind, apart by whether they are free.
+    let mut kinds: BTreeMap<(&str, bool), Vec<usize>> = BTreeMap::new();
+    for (i, shape) in bodies.shape.iter().enumerate() {
+        let seen = kinds.entry((shape.name(), bodies.is_free(i))).or_default();
+        if seen.len() < 2 {
+            seen.push(i);
+        }
+    }
+    for ((_, free), ours) in &kinds {
+        for theirs in kinds.values().filter(|_| *free) {
+            let a = ours[0];
+            let Some(&b) = theirs.iter().find(|&&b| b != a) else { continue };
+            if !bodies.shape[a].has_pair(&bodies.shape[b]) {
+                let (a, b) = (a.min(b), a.max(b));
+                let (first, second) = (bodies.shape[a].name(), bodies.shape[b].name());
+                let message =
+                    format!("no contact between {first} and {second}, as of {} and {}", label(scene, a), label(scene, b));
+                return Err(fault(scene, b, "shape", message, "expected shapes that can touch, or both fixed or driven"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The deepest overlap at the start, measured by the radius of the smaller body.
+fn overlaps<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, bodies: &Bodies<S, D, N>) -> Result<(), Fault> {
+    let mut contacts: Vec<Contact<D>> = Vec::new();
+    let reach = vec![0.0; bodies.len()];
+    Detector::new().detect::<S, N>(&bodies.shape, &bodies.pose, &reach, |i| !bodies.is_free(i), &mut contacts);
+    let part = |contact: &Contact<D>| {
+        let radius = |i: u32| bodies.shape[i as usize].bounding_radius().unwrap_or(f64::INFINITY);
+        -contact.gap / radius(contact.key.a).min(radius(contact.key.b))
+    };
+    let Some(worst) = contacts.iter().max_by(|p, q| part(p).total_cmp(&part(q))) else { return Ok(()) };
+    if part(worst) <= scene.start.max_overlap {
+        return Ok(());
+    }
+    let (a, b) = (worst.key.a as usize, worst.key.b as usize);
+    let depth = -worst.gap;
+    let message = format!(
+        "{} and {} overlap at the start by {depth:.4e} m, which is {:.4} of the smaller one's radius",
+        label(scene, a),
+        label(scene, b),
+        part(worst)
+    );
+    let hint = format!("expected at most start.max_overlap = {}: move one of them", scene.start.max_overlap);
+    Err(fault(scene, b, "position", message, &hint))
+}

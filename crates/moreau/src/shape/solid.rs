@@ -1,0 +1,22 @@
+//! The shapes of space. Lengths in m, volumes in m³.
+
+mod ball;
+mod cuboid;
+mod half_space;
+
+pub use ball::Ball;
+pub use cuboid::Cuboid;
+pub use half_space::HalfSpace;
+
+use super::{Figure, Placed, Shape};
+use crate::detect::narrow::solid as pairs;
+use crate::space::{Solid, Space};
+use moreau_solve::Row;
+
+shapes! {
+    /// Any shape of space.
+    SolidShape in Solid<3, 6>:
+    Ball, "ball", "a ball of given radius";
+    Cuboid, "box", "a rectangular box, by its edge lengths";
+    HalfSpace, "half_space", "all that lies below a plane: ground or wall, fixed or driven";
+}

@@ -1,0 +1,75 @@
+//! Kinematics of the plane and of space: all that differs between the two dimensions in one step.
+//!
+//! A generalised velocity is `[f64; N]`: first the velocity of the centre of mass in the world frame (`D` numbers, m/s), then the
+//! spin in the body's own principal frame (rad/s; one number in the plane, three in space). In that frame the mass matrix is
+//! diagonal and constant. Positions are updated from the start of the step by θ-averaged velocities (eq. 13 of Barboteu & Dumont
+//! 2017), rotations by the Cayley map, which needs no trigonometry and keeps the angular momentum of a free body exactly.
+
+mod plane;
+mod solid;
+
+pub use plane::Plane;
+pub use solid::Solid;
+
+use crate::shape::Shape;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Plane {}
+    impl Sealed for super::Solid {}
+}
+
+/// Where a body is: its centre of mass and its orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<R, const D: usize> {
+    /// Centre of mass in the world, m.
+    pub position: [f64; D],
+    /// Rotation from the body's principal frame to the world.
+    pub rotation: R,
+}
+
+/// The kinematics of one dimension: `Plane` is `Space<2, 3>`, `Solid` is `Space<3, 6>`.
+pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default + Send + Sync + 'static {
+    /// Orientation: a unit complex number in the plane, a unit quaternion in space.
+    type Rotation: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static;
+    /// The shapes of this dimension.
+    type Shape: Shape<Self, D, N>;
+
+    /// The orientation in which the body's frame is the world's.
+    const IDENTITY: Self::Rotation;
+
+    /// Turns a vector of the body's frame into the world's.
+    fn rotate(rotation: Self::Rotation, v: [f64; D]) -> [f64; D];
+
+    /// Turns a vector of the world's frame into the body's.
+    fn unrotate(rotation: Self::Rotation, v: [f64; D]) -> [f64; D];
+
+    /// The orientation after turning for the time `h` with the spin of `velocity` (Cayley map, normalised).
+    fn turn(rotation: Self::Rotation, velocity: &[f64; N], h: f64) -> Self::Rotation;
+
+    /// One row of H* (eq. 15): the generalised direction whose product with a body's velocity is the velocity, along `direction`
+    /// (world), of the body's point at `arm` (world, from the centre of mass).
+    fn row(rotation: Self::Rotation, arm: [f64; D], direction: [f64; D]) -> [f64; N];
+
+    /// Orthonormal frame of a contact, rows n, t₁ (, t₂), continuous in `normal` almost everywhere.
+    fn frame(normal: [f64; D]) -> [[f64; D]; D];
+
+    /// Adds to `free` (which holds v + h M⁻¹ f) what the gyroscopic torque does in the time `h`: solves the implicit midpoint rule
+    /// J(ω⁺ − ω) = h (J ω_m) × ω_m + J Δω, which keeps energy (for θ = 1/2) and the length of the angular momentum.
+    fn gyroscopic(mass: &[f64; N], velocity: &[f64; N], free: &mut [f64; N], h: f64);
+
+    /// The spin at the end of a step, in the body's frame there, from the balance of angular momentum in the world:
+    /// L⁺ = R J ω + h τ + R_m J (ω⁺ − ω_free), ω⁺ having been found in the frame of the predicted rotation R_m. Momentum is then
+    /// kept to rounding, whatever the contacts do to the axis of rotation. `rotations` are R, R_m and R⁺, `velocities` are v,
+    /// v_free and v⁺; `torque` is h τ in the world, as the last part of a load.
+    fn settle(mass: &[f64; N], rotations: [Self::Rotation; 3], velocities: [&[f64; N]; 3], torque: &[f64; N]) -> [f64; N];
+
+    /// A load given in the world (force, then torque) as seen in generalised coordinates of a body so turned.
+    fn load_in_body(rotation: Self::Rotation, load: &[f64; N]) -> [f64; N];
+
+    /// The spin of `velocity` in the world frame; the plane's only component is the third.
+    fn spin_in_world(rotation: Self::Rotation, velocity: &[f64; N]) -> [f64; 3];
+
+    /// The orientation as a unit quaternion (x, y, z, w), for files.
+    fn quaternion(rotation: Self::Rotation) -> [f64; 4];
+}

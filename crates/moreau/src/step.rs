@@ -1,0 +1,41 @@
+//! One step of the Moreau-Jean scheme, stage by stage.
+
+mod forces;
+mod integrate;
+mod localise;
+mod moreau_jean;
+mod record;
+mod system;
+mod workspace;
+
+pub use moreau_jean::step;
+pub use record::{Energy, Seconds, StepRecord};
+pub use workspace::{Localised, Workspace};
+
+/// Why a run cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// A solve reached its limit of sweeps, and the policy is to stop or halving did not help.
+    #[error(
+        "the contact solver did not converge in the step to t = {time} s: {sweeps} sweeps left ε_glob = {eps_glob:.3e}, scaled \
+         residual {scaled:.3e}; raise solver.max_sweeps or solver.tolerance, or take a smaller time.step"
+    )]
+    Unconverged {
+        /// Time at the end of the step, s.
+        time: f64,
+        /// Sweeps done.
+        sweeps: u64,
+        /// ε_glob reached.
+        eps_glob: f64,
+        /// Scaled residual reached.
+        scaled: f64,
+    },
+    /// A position or velocity is not a finite number.
+    #[error("body {body} has a position or velocity that is not a finite number at t = {time} s; take a smaller time.step")]
+    NotFinite {
+        /// Index of the body.
+        body: usize,
+        /// Time, s.
+        time: f64,
+    },
+}

@@ -1,0 +1,141 @@
+//! What a step tells: solver, penetration, energy ledger, seconds.
+
+use super::workspace::Localised;
+use crate::bodies::Bodies;
+use crate::space::Space;
+use moreau_solve::block::dot;
+use moreau_solve::{Residual, Status};
+
+/// The energy of the free bodies, J, and what has gone in and out since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Σ ½ v·M v.
+    pub kinetic: f64,
+    /// −Σ m g·x.
+    pub potential: f64,
+    /// Done by constant forces and torques and by driven bodies.
+    pub work: f64,
+    /// Lost in contacts, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round.
+    pub dissipated: f64,
+    /// kinetic + potential − work + dissipated, less its value at the start: rounding, if all is well.
+    pub balance_error: f64,
+}
+
+/// Seconds of wall-clock time by stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seconds {
+    /// Neighbour search and exact pairs.
+    pub detect: f64,
+    /// Frames, velocities, laws, operator.
+    pub localise: f64,
+    /// Contact impulses.
+    pub solve: f64,
+    /// The whole step, without output.
+    pub step: f64,
+}
+
+/// The record of one step: a row of `steps.csv`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepRecord {
+    /// Number of the step, from 1.
+    pub step: u64,
+    /// Time at its end, s.
+    pub time: f64,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Contacts that took part.
+    pub contacts: usize,
+    /// Of these, with an impulse.
+    pub active: usize,
+    /// Sweeps; the sum where the step was halved.
+    pub sweeps: u64,
+    /// How the solve ended; the worst where the step was halved.
+    pub status: Status,
+    /// Residuals at its end; the worst where the step was halved.
+    pub residual: Residual,
+    /// Deepest overlap of two bodies at the predicted configuration, m; zero if none.
+    pub penetration: f64,
+    /// Energies.
+    pub energy: Energy,
+    /// Time taken.
+    pub seconds: Seconds,
+}
+
+impl StepRecord {
+    /// Whether every solve of the step met its criterion.
+    pub fn converged(&self) -> bool {
+        self.status == Status::Converged
+    }
+}
+
+/// The running sums of the energy ledger.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ledger {
+    start: Option<f64>,
+    work: f64,
+    dissipated: f64,
+}
+
+/// Kinetic and potential energy of the free bodies.
+pub(super) fn energies<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    gravity: &[f64; D],
+) -> (f64, f64) {
+    let (mut kinetic, mut potential) = (0.0, 0.0);
+    for i in (0..bodies.len()).filter(|&i| bodies.is_free(i)) {
+        let (v, mass) = (&bodies.velocity[i], &bodies.mass[i]);
+        kinetic += 0.5 * (0..N).map(|k| mass[k] * v[k] * v[k]).sum::<f64>();
+        potential -= mass[0] * dot(gravity, &bodies.pose[i].position);
+    }
+    (kinetic, potential)
+}
+
+impl Ledger {
+    /// Notes the energy at the start of a run, once.
+    pub(super) fn open(&mut self, energy: (f64, f64)) {
+        self.start.get_or_insert(energy.0 + energy.1);
+    }
+
+    /// Books one step, before the bodies move. `smooth` is v_free, `after` is v⁺.
+    ///
+    /// The scheme's own identity: ΔK = v_m·M Δv with v_m = (v + v⁺)/2, and M Δv = h f + gyroscopic + H p. Displacements are those of
+    /// v_θ = θ v⁺ + (1 − θ) v, so loads and gravity do work on v_θ; what v_m misses of that is lost by the scheme.
+    pub(super) fn book<S: Space<D, N>, const D: usize, const N: usize>(
+        &mut self,
+        bodies: &Bodies<S, D, N>,
+        gravity: &[f64; D],
+        [smooth, after]: [&[[f64; N]]; 2],
+        contacts: &[Localised<D>],
+        (h, theta): (f64, f64),
+    ) {
+        for i in (0..bodies.len()).filter(|&i| bodies.is_free(i)) {
+            let (v, mass) = (&bodies.velocity[i], &bodies.mass[i]);
+            let load = S::load_in_body(bodies.pose[i].rotation, &bodies.load[i]);
+            let (mut displaced, mut middle) = (0.0, 0.0);
+            for k in 0..N {
+                let weight = if k < D { mass[k] * gravity[k] } else { 0.0 };
+                let v_theta = theta * after[i][k] + (1.0 - theta) * v[k];
+                self.work += h * load[k] * v_theta;
+                displaced += h * (load[k] + weight) * v_theta;
+                middle += mass[k] * (smooth[i][k] - v[k]) * 0.5 * (v[k] + after[i][k]);
+            }
+            self.dissipated += displaced - middle;
+        }
+        for c in contacts {
+            let mean: [f64; D] = std::array::from_fn(|i| 0.5 * (c.before[i] + c.after[i]));
+            self.dissipated -= dot(&c.impulse, &mean);
+            self.work -= dot(&c.impulse, &c.driven);
+        }
+    }
+
+    /// Books what the scheme takes beside.
+    pub(super) fn dissipate(&mut self, energy: f64) {
+        self.dissipated += energy;
+    }
+
+    /// The ledger when the energies are these.
+    pub(super) fn energy(&self, (kinetic, potential): (f64, f64)) -> Energy {
+        let balance_error = kinetic + potential - self.start.unwrap_or(0.0) - self.work + self.dissipated;
+        Energy { kinetic, potential, work: self.work, dissipated: self.dissipated, balance_error }
+    }
+}

@@ -1,0 +1,98 @@
+//! Scratch of a step: buffers that are written anew each time and kept, and what observers read of the last step.
+
+use super::localise::Prepared;
+use super::record::Ledger;
+use super::system::Systems;
+use crate::contacts::{Contact, ContactKey};
+use crate::detect::Detector;
+use crate::space::{Pose, Space};
+use crate::world::World;
+use moreau_solve::{HistoryRow, NormalForm};
+
+/// One contact as the last step left it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Localised<const D: usize> {
+    /// Identity, point, normal and gap at the predicted configuration.
+    pub contact: Contact<D>,
+    /// The frame, rows n, t₁ (, t₂).
+    pub frame: [[f64; D]; D],
+    /// Law in normal form.
+    pub form: NormalForm<D>,
+    /// Relative velocity at the beginning of the step, in the frame, m/s.
+    pub before: [f64; D],
+    /// Relative velocity at the end of the step, in the frame, m/s; where no contact of the step has friction, the normal part alone.
+    pub after: [f64; D],
+    /// The part of both that driven bodies give.
+    pub driven: [f64; D],
+    /// Impulse on body `b`, in the frame, N·s.
+    pub impulse: [f64; D],
+}
+
+/// The world before a step that is being halved, to go back to if its second part fails.
+pub(super) struct Before<S: Space<D, N>, const D: usize, const N: usize> {
+    pose: Vec<Pose<S::Rotation, D>>,
+    velocity: Vec<[f64; N]>,
+    time: f64,
+    ledger: Ledger,
+}
+
+impl<S: Space<D, N>, const D: usize, const N: usize> Before<S, D, N> {
+    pub(super) fn of(world: &World<S, D, N>, ledger: &Ledger) -> Self {
+        let bodies = &world.bodies;
+        Self { pose: bodies.pose.clone(), velocity: bodies.velocity.clone(), time: world.time, ledger: *ledger }
+    }
+
+    pub(super) fn restore(self, world: &mut World<S, D, N>, ledger: &mut Ledger) {
+        (world.bodies.pose, world.bodies.velocity) = (self.pose, self.velocity);
+        (world.time, *ledger) = (self.time, self.ledger);
+    }
+}
+
+/// All that a step needs beside the world.
+pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
+    pub(super) detector: Detector<D>,
+    pub(super) free: Vec<[f64; N]>,
+    pub(super) after: Vec<[f64; N]>,
+    pub(super) middle: Vec<Pose<S::Rotation, D>>,
+    pub(super) reach: Vec<f64>,
+    pub(super) found: Vec<Contact<D>>,
+    pub(super) prepared: Vec<Prepared<D, N>>,
+    pub(super) contacts: Vec<Localised<D>>,
+    pub(super) previous: Vec<(ContactKey, [f64; D])>,
+    pub(super) systems: Systems<D, N>,
+    pub(super) ledger: Ledger,
+    pub(super) before: Option<Before<S, D, N>>,
+    pub(super) history: Vec<HistoryRow>,
+}
+
+impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D, N> {
+    fn default() -> Self {
+        Self {
+            detector: Detector::default(),
+            free: Vec::new(),
+            after: Vec::new(),
+            middle: Vec::new(),
+            reach: Vec::new(),
+            found: Vec::new(),
+            prepared: Vec::new(),
+            contacts: Vec::new(),
+            previous: Vec::new(),
+            systems: Systems::default(),
+            ledger: Ledger::default(),
+            before: None,
+            history: Vec::new(),
+        }
+    }
+}
+
+impl<S: Space<D, N>, const D: usize, const N: usize> Workspace<S, D, N> {
+    /// The contacts of the last step, sorted by key.
+    pub fn contacts(&self) -> &[Localised<D>] {
+        &self.contacts
+    }
+
+    /// Residuals sweep by sweep of the last solve, if the solver's settings ask for them.
+    pub fn history(&self) -> &[HistoryRow] {
+        &self.history
+    }
+}

@@ -1,0 +1,62 @@
+//! The world: the truth that a step advances.
+
+use crate::bodies::Bodies;
+use crate::laws::Laws;
+use crate::space::Space;
+use moreau_solve::Settings;
+
+/// With which impulses a solve begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// From zero, as in the paper (section 3.2).
+    #[default]
+    Cold,
+    /// From those of the step before, contact by contact.
+    Warm,
+}
+
+/// What to do when a solve reaches its limit of sweeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OnFailure {
+    /// Take the step all the same, and count it.
+    #[default]
+    Warn,
+    /// End the run before the step.
+    Stop,
+    /// Do the step again in two halves, and these in halves if need be, down to h/64.
+    Halve,
+}
+
+/// How the world is advanced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSettings {
+    /// Length of a step h, s.
+    pub h: f64,
+    /// θ of the θ-method, from 1/2 to 1 (eq. 13).
+    pub theta: f64,
+    /// First impulses of a solve.
+    pub start: Start,
+    /// What to do when a solve fails.
+    pub on_failure: OnFailure,
+    /// The contact solver.
+    pub solver: Settings,
+}
+
+/// Bodies, laws and gravity at one time.
+#[derive(Clone, Debug)]
+pub struct World<S: Space<D, N>, const D: usize, const N: usize> {
+    /// The bodies.
+    pub bodies: Bodies<S, D, N>,
+    /// The laws by pair of materials.
+    pub laws: Laws,
+    /// Gravity, m/s².
+    pub gravity: [f64; D],
+    /// How it is advanced.
+    pub settings: StepSettings,
+    /// Time, s.
+    pub time: f64,
+    /// Steps done.
+    pub steps: u64,
+}
