@@ -34,7 +34,7 @@ impl Cone {
         }
     }
 
-    /// The projection on C(μ [τ_n]₊), the half cylinder of eq. 23 whose radius follows the normal part, with its derivative.
+    /// The projection on C(μ max(0, τ_n)), the half cylinder of eq. 23 whose radius follows the normal part, with its derivative.
     #[inline]
     pub fn project_cylinder<const D: usize>(self, tau: &Vector<D>) -> (Vector<D>, Matrix<D>) {
         match self {

@@ -58,7 +58,7 @@ proptest! {
                 let (operator, mut q, cones) = chain(8, &numbers, mass);
                 q.iter_mut().flatten().for_each(|x| *x *= speed);
                 let problem = Problem { operator: &operator, q: &q, cones: &cones };
-                let report = solve(&problem, &tight(local), &mut vec![[0.0; 2]; 8], &mut Default::default());
+                let report = solve(&problem, &tight(local), &mut [[0.0; 2]; 8], &mut Default::default());
                 outcomes.push((report.status, report.sweeps, report.residual.scaled));
             }
             prop_assert!(outcomes.iter().all(|other| *other == outcomes[0]), "{}: {outcomes:?}", local.name());
@@ -89,7 +89,7 @@ fn the_limit_of_sweeps_and_numbers_that_are_none_are_statuses() {
     let settings = Settings { max_sweeps: 2, ..tight(LocalMethod::Pdas) };
     let run = |q: &[[f64; 2]]| {
         let problem = Problem { operator: &operator, q, cones: &cones };
-        solve(&problem, &settings, &mut vec![[0.0; 2]; 8], &mut Default::default())
+        solve(&problem, &settings, &mut [[0.0; 2]; 8], &mut Default::default())
     };
     let report = run(&q);
     assert_eq!((report.status, report.sweeps), (Status::MaxSweeps, 2));

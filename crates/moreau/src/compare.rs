@@ -30,8 +30,8 @@ pub struct Row {
     pub seconds_solve: f64,
     /// Residual after each sweep of the chosen step.
     pub history: Vec<HistoryRow>,
-    /// Greatest difference of a body's velocity from the first method's after the chosen step, taken from the same state by both;
-    /// relative to the greatest velocity, or to what the step's free motion gives where all is at rest.
+    /// Greatest difference of a body's velocity from the exact local solver's after the chosen step, taken from the same state by
+    /// both; relative to the greatest velocity, or to what the step's free motion gives where all is at rest.
     pub disagreement: f64,
 }
 
@@ -42,30 +42,39 @@ pub struct Probe<S: Space<D, N>, const D: usize, const N: usize> {
 }
 
 impl<S: Space<D, N>, const D: usize, const N: usize> Probe<S, D, N> {
-    /// Advances a copy of `start` to just before step number `number` (from 1) with the scene's own solver, and through it.
-    /// `None` if the run fails on its way.
-    pub fn new(start: &World<S, D, N>, number: u64, stop: &AtomicBool) -> Result<Option<Self>, OutputError> {
+    /// Advances a copy of `start` to just before step number `number` (from 1) with its own solver. The step itself is taken with the
+    /// exact local solver to `tolerance`, as by those who are compared: much tighter than that of the run, so that what differs
+    /// is the methods and not where they stopped.
+    ///
+    /// Returns `None` if the run fails on its way.
+    ///
+    /// # Errors
+    /// None of its own; the type is that of [`run`].
+    pub fn new(start: &World<S, D, N>, number: u64, tolerance: f64, stop: &AtomicBool) -> Result<Option<Self>, OutputError> {
         let mut before = start.clone();
         let outcome = run(&mut before, &mut Workspace::default(), number.saturating_sub(1), &mut [], stop, |_| {})?;
+        before.settings.solver.tolerance = tolerance;
         let mut after = before.clone();
-        let arrived = outcome.end == End::Done && step(&mut after, &mut Workspace::default()).is_ok();
+        after.settings.solver.local = LocalMethod::Exact;
+        let arrived =
+            outcome.end == End::Done && step(&mut after, &mut Workspace::default()).is_ok_and(|record| record.converged());
         Ok(arrived.then_some(Self { before, after }))
     }
 
-    /// Takes the step with `methods`: residuals by sweep, and the greatest relative difference in velocity.
-    fn take(&self, methods: Methods) -> (Vec<HistoryRow>, f64) {
+    /// Takes the step with `methods`: residuals by sweep, and the greatest relative difference in velocity; infinite where the step
+    /// fails or does not converge.
+    pub fn take(&self, methods: Methods) -> (Vec<HistoryRow>, f64) {
         let mut world = self.before.clone();
         let solver = &mut world.settings.solver;
         (solver.global, solver.local, solver.history) = (methods.0, methods.1, true);
         let mut work = Workspace::default();
-        if step(&mut world, &mut work).is_err() {
-            return (Vec::new(), f64::INFINITY);
-        }
-        (work.history().to_vec(), disagreement(&self.after, &world))
+        let converged = step(&mut world, &mut work).is_ok_and(|record| record.converged());
+        let difference = if converged { disagreement(&self.after, &world) } else { f64::INFINITY };
+        (work.history().to_vec(), difference)
     }
 }
 
-/// max |v − v'| / max |v|, velocities of surface points: spins count by the radius. The scale is at least g h.
+/// max |v − v'| / max |v| over all bodies, velocities of surface points: spins count by the radius. The scale is at least g h.
 pub fn disagreement<S: Space<D, N>, const D: usize, const N: usize>(a: &World<S, D, N>, b: &World<S, D, N>) -> f64 {
     use crate::shape::Shape;
     let speed = |v: &[f64; N], radius: f64| {

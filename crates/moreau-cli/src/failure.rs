@@ -1,0 +1,89 @@
+//! How the program ends when something is wrong: one message on the standard error, one exit code of the table below.
+//!
+//! | code | meaning |
+//! |---|---|
+//! | 0 | done |
+//! | 1 | something could not be read or written |
+//! | 2 | wrong words on the command line (from the parser) |
+//! | 3 | the scene is wrong |
+//! | 4 | the computation failed: a solve did not converge under the policy `stop`, or a number ceased to be finite |
+//! | 5 | solvers that should agree do not |
+//! | 130 | interrupted; what was computed is kept |
+
+use std::fmt::Display;
+use std::process::ExitCode;
+
+/// An exit code with its message.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    code: u8,
+    message: String,
+}
+
+impl Failure {
+    /// A file.
+    pub(crate) fn file(message: impl Display) -> Self {
+        Self { code: 1, message: message.to_string() }
+    }
+
+    /// Wrong words on the command line that the parser lets through.
+    pub(crate) fn usage(message: impl Display) -> Self {
+        Self { code: 2, message: message.to_string() }
+    }
+
+    /// A scene.
+    pub(crate) fn scene(message: impl Display) -> Self {
+        Self { code: 3, message: message.to_string() }
+    }
+
+    /// A computation.
+    pub(crate) fn computation(message: impl Display) -> Self {
+        Self { code: 4, message: message.to_string() }
+    }
+
+    /// Disagreement.
+    pub(crate) fn disagreement(message: impl Display) -> Self {
+        Self { code: 5, message: message.to_string() }
+    }
+
+    /// Ctrl-C.
+    pub(crate) fn interrupted(message: impl Display) -> Self {
+        Self { code: 130, message: message.to_string() }
+    }
+
+    /// Prints the message and gives the code.
+    pub(crate) fn report(&self) -> ExitCode {
+        let word = if self.code == 130 { "interrupted" } else { "error" };
+        eprintln!("{word}: {}", self.message);
+        ExitCode::from(self.code)
+    }
+}
+
+/// Writes to the standard output; a closed pipe ends the program quietly, as `head` expects.
+pub(crate) fn say(text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::file(format!("standard output: {error}"))),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a whole file beside its place and renames it, so that nobody sees half of it.
+pub(crate) fn write_whole(path: &std::path::Path, text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => std::path::Path::new("."),
+    };
+    let write = || {
+        let mut file = tempfile::Builder::new().prefix(".moreau").tempfile_in(folder)?;
+        file.write_all(text.as_bytes())?;
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
+        }
+        file.persist(path).map_err(|error| error.error)
+    };
+    write().map(drop).map_err(|error: std::io::Error| Failure::file(format!("cannot write {}: {error}", path.display())))
+}

@@ -1,0 +1,54 @@
+//! `moreau list`, `moreau schema`: the tables.
+
+use crate::failure::{Failure, say};
+use crate::table::aligned;
+use clap::ValueEnum;
+use moreau::scene::Scene;
+use moreau::solve::Row;
+use moreau::solve::global::GLOBAL_METHODS;
+use moreau::solve::law::LAWS;
+use moreau::solve::local::LOCAL_METHODS;
+use moreau::{observe::OUTPUTS, shape};
+
+/// What to list.
+#[derive(Clone, Copy, ValueEnum)]
+enum What {
+    /// Contact laws
+    Laws,
+    /// Local solvers
+    Local,
+    /// Global solvers
+    Global,
+    /// Shapes
+    Shapes,
+    /// Outputs
+    Outputs,
+}
+
+/// Arguments of `moreau list`.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    what: What,
+}
+
+/// Prints one table.
+pub(crate) fn list(args: &Args) -> Result<(), Failure> {
+    let row = |row: &Row| vec![row.name.to_owned(), row.about.to_owned()];
+    let rows: Vec<Vec<String>> = match args.what {
+        What::Laws => LAWS.iter().map(row).collect(),
+        What::Local => LOCAL_METHODS.iter().map(|(_, it)| row(it)).collect(),
+        What::Global => GLOBAL_METHODS.iter().map(|(_, it)| row(it)).collect(),
+        What::Shapes => {
+            let named = |dimension: &str, it: &Row| vec![it.name.to_owned(), dimension.to_owned(), it.about.to_owned()];
+            let plane = shape::plane::SHAPES.iter().map(|it| named("2D", it));
+            plane.chain(shape::solid::SHAPES.iter().map(|it| named("3D", it))).collect()
+        }
+        What::Outputs => OUTPUTS.iter().map(row).collect(),
+    };
+    say(&aligned(&rows))
+}
+
+/// Prints the schema.
+pub(crate) fn schema() -> Result<(), Failure> {
+    say(&format!("{:#}\n", Scene::schema()))
+}

@@ -1,0 +1,56 @@
+//! The program `moreau`.
+
+mod check;
+mod compare;
+mod failure;
+mod list;
+mod new;
+mod plot;
+mod progress;
+mod rho;
+mod run;
+mod scene;
+mod table;
+
+use clap::{Parser, Subcommand};
+use failure::Failure;
+use std::process::ExitCode;
+
+/// Nonsmooth contact dynamics: how many rigid bodies move when they touch.
+#[derive(Parser)]
+#[command(name = "moreau", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a scene and write summary.json, steps.csv and files for ParaView
+    Run(run::Args),
+    /// Run a scene with several solvers from the same start and print the paper's table
+    Compare(compare::Args),
+    /// Write a commented scene to start from
+    New(new::Args),
+    /// Say what a scene would run, without running it
+    Check(check::Args),
+    /// List what scenes can name
+    List(list::Args),
+    /// Print the JSON schema of scene files, for editors
+    Schema,
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Run(args) => run::run(&args),
+        Command::Compare(args) => compare::compare(&args),
+        Command::New(args) => new::new(&args),
+        Command::Check(args) => check::check(&args),
+        Command::List(args) => list::list(&args),
+        Command::Schema => list::schema(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,41 @@
+//! A progress bar on a terminal, silence in a pipe, and Ctrl-C.
+
+use crate::Failure;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use moreau::step::StepRecord;
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by Ctrl-C.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Makes Ctrl-C end runs after the step at hand; a second one ends the program at once.
+pub(crate) fn stop_on_ctrl_c() -> Result<&'static AtomicBool, Failure> {
+    let handler = || {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    ctrlc::set_handler(handler).map_err(|error| Failure::file(format!("cannot listen to Ctrl-C: {error}")))?;
+    Ok(&STOP)
+}
+
+/// A bar over `steps` steps, hidden if `quiet` or if nobody looks.
+pub(crate) fn bar(steps: u64, quiet: bool) -> ProgressBar {
+    if quiet || !std::io::stderr().is_terminal() {
+        return ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
+    }
+    let bar = ProgressBar::new(steps);
+    if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {pos}/{len} steps {per_sec} eta {eta} {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// Moves the bar by one step.
+pub(crate) fn tick(bar: &ProgressBar, record: &StepRecord) {
+    bar.inc(1);
+    if !bar.is_hidden() && record.step.is_multiple_of(16) {
+        bar.set_message(format!("{} contacts, {} sweeps", record.contacts, record.sweeps));
+    }
+}

@@ -1,0 +1,156 @@
+//! `moreau run`.
+
+use crate::failure::{Failure, say, write_whole};
+use crate::{progress, scene};
+use moreau::observe::{Observer, OutputError, StepsCsv, VtkOutput};
+use moreau::run::{End, Outcome};
+use moreau::scene::{AnyWorld, OutputKind, Scene};
+use moreau::space::Space;
+use moreau::step::Workspace;
+use moreau::world::{StepSettings, World};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `moreau run`.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The scene file
+    scene: PathBuf,
+    /// Where to write [default: out/NAME, NAME being the scene file's]
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// How many steps to do, in place of the scene's
+    #[arg(long)]
+    steps: Option<u64>,
+    /// Change a value of the scene: key.path=value (may be given again)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+    /// How many threads may be used
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
+    /// No progress bar and no summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the scene and writes its folder.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut sets = args.sets.clone();
+    sets.extend(args.steps.map(|steps| format!("time.steps={steps}")));
+    let scene = scene::load(&args.scene, &sets)?;
+    let world = scene::build(&scene)?;
+    let folder = args
+        .out
+        .clone()
+        .or_else(|| scene.output.folder.as_ref().map(PathBuf::from))
+        .unwrap_or_else(|| Path::new("out").join(scene::name(&args.scene)));
+    prepare(&folder)?;
+    write_whole(&folder.join("scene.toml"), &scene.to_toml())?;
+    match world {
+        AnyWorld::Plane(world) => go(args, &scene, world, &folder),
+        AnyWorld::Solid(world) => go(args, &scene, world, &folder),
+    }
+}
+
+/// Makes the folder and takes an earlier run's files out of it: a mixture of two runs would mislead.
+fn prepare(folder: &Path) -> Result<(), Failure> {
+    let wrong = |path: &Path| {
+        let path = path.display().to_string();
+        move |error: std::io::Error| Failure::file(format!("cannot write into {path}: {error}"))
+    };
+    std::fs::create_dir_all(folder).map_err(wrong(folder))?;
+    for file in ["summary.json", "steps.csv"] {
+        let path = folder.join(file);
+        match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(wrong(&path)(error)),
+            _ => {}
+        }
+    }
+    let vtk = folder.join("vtk");
+    let Ok(entries) = std::fs::read_dir(&vtk) else { return Ok(()) };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        if path.extension().is_some_and(|extension| extension == "vtp" || extension == "pvd") {
+            std::fs::remove_file(&path).map_err(wrong(&path))?;
+        }
+    }
+    Ok(())
+}
+
+fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
+    scene: &Scene,
+    folder: &Path,
+) -> Result<Vec<Box<dyn Observer<S, D, N> + 'a>>, OutputError> {
+    let mut observers: Vec<Box<dyn Observer<S, D, N> + 'a>> = Vec::new();
+    if scene.output.kinds.contains(&OutputKind::Steps) {
+        observers.push(Box::new(StepsCsv::create(&folder.join("steps.csv"))?));
+    }
+    if scene.output.kinds.contains(&OutputKind::Vtk) && scene.vtk_every() > 0 {
+        observers.push(Box::new(VtkOutput::create(&folder.join("vtk"), scene.vtk_every())?));
+    }
+    Ok(observers)
+}
+
+fn go<S: Space<D, N>, const D: usize, const N: usize>(
+    args: &Args,
+    scene: &Scene,
+    mut world: World<S, D, N>,
+    folder: &Path,
+) -> Result<(), Failure> {
+    let stop = progress::stop_on_ctrl_c()?;
+    let mut observers = observers(scene, folder).map_err(Failure::file)?;
+    let settings = world.settings;
+    let bodies = world.bodies.len();
+    let bar = progress::bar(scene.time.steps, args.quiet);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(args.threads))
+        .build()
+        .map_err(|error| Failure::computation(format!("cannot start {} threads: {error}", args.threads)))?;
+    let outcome = pool
+        .install(|| {
+            moreau::run::run(&mut world, &mut Workspace::default(), scene.time.steps, &mut observers, stop, |record| {
+                if !bar.is_hidden() {
+                    progress::tick(&bar, record);
+                }
+            })
+        })
+        .map_err(Failure::file)?;
+    bar.finish_and_clear();
+    let threads = usize::from(args.threads);
+    let mut summary = outcome.summary.to_json(bodies, &settings, threads, outcome.seconds_total, outcome.seconds_output);
+    summary["memory_bytes"] = scene::memory_in_use().into();
+    write_whole(&folder.join("summary.json"), &format!("{summary:#}\n"))?;
+    if !args.quiet {
+        say(&describe(&outcome, bodies, &settings, folder))?;
+    }
+    verdict(&outcome, folder)
+}
+
+/// A few lines for a person.
+fn describe(outcome: &Outcome, bodies: usize, settings: &StepSettings, folder: &Path) -> String {
+    let summary = &outcome.summary;
+    let unconverged = match summary.unconverged() {
+        0 => "every step converged".to_owned(),
+        count => format!("{count} steps did NOT converge"),
+    };
+    format!(
+        "{} steps, {bodies} bodies, {} inside {}: {:.1} sweeps a step, {unconverged}\n\
+         {:.2} s in all, {:.2} s for contact impulses, {:.2} s for files\n\
+         results in {}\n",
+        summary.steps(),
+        settings.solver.local.name(),
+        settings.solver.global.name(),
+        summary.sweeps_mean(),
+        outcome.seconds_total,
+        summary.seconds_solve(),
+        outcome.seconds_output,
+        folder.display(),
+    )
+}
+
+fn verdict(outcome: &Outcome, folder: &Path) -> Result<(), Failure> {
+    let kept = format!("the {} steps before are kept in {}", outcome.summary.steps(), folder.display());
+    match &outcome.end {
+        End::Done => Ok(()),
+        End::Interrupted => Err(Failure::interrupted(kept)),
+        End::Failed(error) => Err(Failure::computation(format!("{error}; {kept}"))),
+    }
+}

@@ -1,0 +1,38 @@
+//! Loading a scene, with the memory of this machine.
+
+use crate::Failure;
+use moreau::scene::{AnyWorld, Scene};
+use std::path::Path;
+
+/// Bytes that programs may still take; no limit where the system does not tell.
+pub(crate) fn available_memory() -> u64 {
+    let mut system = sysinfo::System::new();
+    system.refresh_memory();
+    match system.available_memory() {
+        0 => u64::MAX,
+        bytes => bytes,
+    }
+}
+
+/// Bytes that this program holds; zero where the system does not tell.
+pub(crate) fn memory_in_use() -> u64 {
+    let Ok(pid) = sysinfo::get_current_pid() else { return 0 };
+    let mut system = sysinfo::System::new();
+    system.refresh_processes(sysinfo::ProcessesToUpdate::Some(&[pid]), true);
+    system.process(pid).map_or(0, sysinfo::Process::memory)
+}
+
+/// Reads a scene with its overrides.
+pub(crate) fn load(path: &Path, sets: &[String]) -> Result<Scene, Failure> {
+    Scene::load_with(path, sets).map_err(Failure::scene)
+}
+
+/// Makes the scene's world, if it fits into memory.
+pub(crate) fn build(scene: &Scene) -> Result<AnyWorld, Failure> {
+    scene.build(available_memory()).map_err(Failure::scene)
+}
+
+/// The scene's name: its file's.
+pub(crate) fn name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
