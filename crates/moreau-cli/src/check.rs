@@ -55,6 +55,6 @@ fn rows<S: Space<D, N>, const D: usize, const N: usize>(scene: &Scene, world: &W
             format!("{} steps of {:e} s, to t = {:.6} s", scene.time.steps, settings.h, scene.time.steps as f64 * settings.h),
         ),
         row("solver", format!("{} inside {}, tolerance {:e}", solver.local.name(), solver.global.name(), solver.tolerance)),
-        row("memory", format!("about {:.1} MiB expected", scene.estimate().memory_bytes as f64 / f64::from(1 << 20))),
+        row("memory", format!("about {:.2} MiB expected", scene.estimate().memory_bytes as f64 / f64::from(1 << 20))),
     ]
 }

@@ -1,6 +1,6 @@
 //! `moreau compare`: the paper's tables and its figure 4.
 
-use crate::failure::{Failure, say, write_whole};
+use crate::failure::{Failure, say, writable, write_whole};
 use crate::plot::{Curve, semilog};
 use crate::rho::{self, Study};
 use crate::table::aligned;
@@ -70,6 +70,9 @@ fn global(name: &str) -> Result<GlobalMethod, String> {
 /// Runs all pairs of methods and reports.
 pub(crate) fn compare(args: &Args) -> Result<(), Failure> {
     let scene = scene::load(&args.scene, &args.sets)?;
+    for path in args.csv.iter().chain(&args.plot) {
+        writable(path)?;
+    }
     match scene::build(&scene)? {
         AnyWorld::Plane(world) => go(args, &scene, &world),
         AnyWorld::Solid(world) => go(args, &scene, &world),
@@ -213,7 +216,11 @@ fn verdict(rows: &[Row], at: u64) -> Result<(), Failure> {
             End::Failed(error) => return Err(Failure::computation(format!("{}: {error}", name(row)))),
         }
     }
-    match rows.iter().find(|row| row.disagreement > AGREEMENT) {
+    match rows.iter().find(|row| !(row.disagreement <= AGREEMENT)) {
+        Some(row) if !row.disagreement.is_finite() => Err(Failure::computation(format!(
+            "{}: step {at} does not converge to a hundredth of the tolerance, so velocities cannot be compared",
+            name(row)
+        ))),
         Some(row) => Err(Failure::disagreement(format!(
             "{} differs by {:.1e} from the exact local solver in step {at}: the tolerance is too loose, or it is wrong",
             name(row),

@@ -11,6 +11,8 @@
 //! | 130 | interrupted; what was computed is kept |
 
 use std::fmt::Display;
+use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// An exit code with its message.
@@ -54,29 +56,44 @@ impl Failure {
     /// Prints the message and gives the code.
     pub(crate) fn report(&self) -> ExitCode {
         let word = if self.code == 130 { "interrupted" } else { "error" };
-        eprintln!("{word}: {}", self.message);
+        // Nobody may be there to read it; the code still tells.
+        let _ = writeln!(std::io::stderr(), "{word}: {}", self.message);
         ExitCode::from(self.code)
     }
 }
 
 /// Writes to the standard output; a closed pipe ends the program quietly, as `head` expects.
 pub(crate) fn say(text: &str) -> Result<(), Failure> {
-    use std::io::Write;
     match std::io::stdout().lock().write_all(text.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::file(format!("standard output: {error}"))),
         _ => Ok(()),
     }
 }
 
+/// The folder of `path` and a new, nameless file in it.
+fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    tempfile::Builder::new().prefix(".moreau").tempfile_in(folder)
+}
+
+/// What went wrong with `path`, without the temporary names that an error may carry.
+fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {
+    let reason = std::io::Error::from(error.kind());
+    Failure::file(format!("cannot write {}: {reason}; give a place in a folder that exists and can be written", path.display()))
+}
+
+/// Makes sure, before long work, that a file can be written at its end.
+pub(crate) fn writable(path: &Path) -> Result<(), Failure> {
+    if path.is_dir() {
+        return Err(Failure::file(format!("cannot write {}: it is a folder; give the name of a file", path.display())));
+    }
+    beside(path).map(drop).map_err(|error| cannot_write(path, &error))
+}
+
 /// Writes a whole file beside its place and renames it, so that nobody sees half of it.
-pub(crate) fn write_whole(path: &std::path::Path, text: &str) -> Result<(), Failure> {
-    use std::io::Write;
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => std::path::Path::new("."),
-    };
+pub(crate) fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
     let write = || {
-        let mut file = tempfile::Builder::new().prefix(".moreau").tempfile_in(folder)?;
+        let mut file = beside(path)?;
         file.write_all(text.as_bytes())?;
         #[cfg(unix)]
         {
@@ -85,5 +102,5 @@ pub(crate) fn write_whole(path: &std::path::Path, text: &str) -> Result<(), Fail
         }
         file.persist(path).map_err(|error| error.error)
     };
-    write().map(drop).map_err(|error: std::io::Error| Failure::file(format!("cannot write {}: {error}", path.display())))
+    write().map(drop).map_err(|error: std::io::Error| cannot_write(path, &error))
 }

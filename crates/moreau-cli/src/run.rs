@@ -1,6 +1,6 @@
 //! `moreau run`.
 
-use crate::failure::{Failure, say, write_whole};
+use crate::failure::{Failure, say, writable, write_whole};
 use crate::{progress, scene};
 use moreau::observe::{Observer, OutputError, StepsCsv, VtkOutput};
 use moreau::run::{End, Outcome};
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .clone()
         .or_else(|| scene.output.folder.as_ref().map(PathBuf::from))
         .unwrap_or_else(|| Path::new("out").join(scene::name(&args.scene)));
-    prepare(&folder)?;
+    prepare(&folder, &args.scene)?;
     write_whole(&folder.join("scene.toml"), &scene.to_toml())?;
     match world {
         AnyWorld::Plane(world) => go(args, &scene, world, &folder),
@@ -51,25 +51,31 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Makes the folder and takes an earlier run's files out of it: a mixture of two runs would mislead.
-fn prepare(folder: &Path) -> Result<(), Failure> {
-    let wrong = |path: &Path| {
-        let path = path.display().to_string();
-        move |error: std::io::Error| Failure::file(format!("cannot write into {path}: {error}"))
+/// Makes the folder and takes an earlier run's files out of it: a mixture of two runs would mislead. Nothing is taken before it is
+/// sure that all can be written, and never the scene that is being run.
+fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
+    let wrong = |path: &Path, reason: &dyn std::fmt::Display| {
+        Failure::file(format!("cannot write into {}: {reason}; choose another folder with --out", path.display()))
     };
-    std::fs::create_dir_all(folder).map_err(wrong(folder))?;
-    for file in ["summary.json", "steps.csv"] {
-        let path = folder.join(file);
-        match std::fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(wrong(&path)(error)),
-            _ => {}
-        }
+    std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
+    let files = ["scene.toml", "summary.json", "steps.csv"].map(|file| folder.join(file));
+    for file in &files {
+        writable(file)?;
+    }
+    let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if same(&files[0], scene) {
+        return Err(wrong(&files[0], &"it is the scene to run, which would be overwritten"));
     }
     let vtk = folder.join("vtk");
-    let Ok(entries) = std::fs::read_dir(&vtk) else { return Ok(()) };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        if path.extension().is_some_and(|extension| extension == "vtp" || extension == "pvd") {
-            std::fs::remove_file(&path).map_err(wrong(&path))?;
+    if vtk.exists() && !vtk.is_dir() {
+        return Err(wrong(&vtk, &"it is not a folder"));
+    }
+    let old_frames = std::fs::read_dir(&vtk).into_iter().flatten().flatten().map(|entry| entry.path());
+    let is_frame = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "vtp" || extension == "pvd");
+    for path in files[1..].iter().cloned().chain(old_frames.filter(is_frame)) {
+        match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(wrong(&path, &error)),
+            _ => {}
         }
     }
     Ok(())

@@ -24,6 +24,10 @@ pub(crate) fn memory_in_use() -> u64 {
 
 /// Reads a scene with its overrides.
 pub(crate) fn load(path: &Path, sets: &[String]) -> Result<Scene, Failure> {
+    if let Err(error) = std::fs::read(path) {
+        let hint = "give the path of a scene file, or make one with `moreau new NAME`";
+        return Err(Failure::file(format!("{}: cannot read the scene: {error}; {hint}", path.display())));
+    }
     Scene::load_with(path, sets).map_err(Failure::scene)
 }
 

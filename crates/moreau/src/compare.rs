@@ -4,7 +4,7 @@ use crate::observe::OutputError;
 use crate::run::{End, run};
 use crate::space::Space;
 use crate::step::{StepRecord, Workspace, step};
-use crate::world::World;
+use crate::world::{OnFailure, World};
 use moreau_solve::{GlobalMethod, HistoryRow, LocalMethod};
 use std::sync::atomic::AtomicBool;
 
@@ -53,7 +53,9 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Probe<S, D, N> {
     pub fn new(start: &World<S, D, N>, number: u64, tolerance: f64, stop: &AtomicBool) -> Result<Option<Self>, OutputError> {
         let mut before = start.clone();
         let outcome = run(&mut before, &mut Workspace::default(), number.saturating_sub(1), &mut [], stop, |_| {})?;
-        before.settings.solver.tolerance = tolerance;
+        let settings = &mut before.settings;
+        (settings.solver.tolerance, settings.on_failure) = (tolerance, OnFailure::Warn);
+        settings.solver.max_sweeps = settings.solver.max_sweeps.saturating_mul(100);
         let mut after = before.clone();
         after.settings.solver.local = LocalMethod::Exact;
         let arrived =

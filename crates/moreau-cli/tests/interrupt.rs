@@ -1,0 +1,121 @@
+//! Ctrl-C: the program ends after the step at hand, with code 130 and everything that it computed.
+#![cfg(unix)]
+
+mod common;
+
+use common::{Place, TEN};
+use std::io::Read;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A child that does not outlive its test.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It has ended already where the test went well.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Running {
+    fn start(place: &Place, words: &[&str]) -> Self {
+        let mut command = place.command(words);
+        Self(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts"))
+    }
+
+    /// Sends SIGINT, as a terminal does on Ctrl-C.
+    fn interrupt(&self) {
+        let status = Command::new("kill").args(["-INT", &self.0.id().to_string()]).status().expect("kill");
+        assert!(status.success(), "the program ended before it was interrupted");
+    }
+
+    /// Waits for the end, at most 20 s: the exit code, the standard output and error.
+    fn end(mut self) -> (Option<i32>, String, String) {
+        let until = Instant::now() + Duration::from_secs(20);
+        let status = loop {
+            match self.0.try_wait().expect("the child is there") {
+                Some(status) => break status,
+                None if Instant::now() > until => panic!("the program goes on after Ctrl-C"),
+                None => std::thread::sleep(Duration::from_millis(10)),
+            }
+        };
+        let (mut out, mut err) = (String::new(), String::new());
+        self.0.stdout.take().expect("a pipe").read_to_string(&mut out).expect("text");
+        self.0.stderr.take().expect("a pipe").read_to_string(&mut err).expect("text");
+        (status.code(), out, err)
+    }
+}
+
+/// Waits until `file` is longer than its first line, at most 10 s.
+fn wait_for_rows(place: &Place, file: &str) {
+    let until = Instant::now() + Duration::from_secs(10);
+    while std::fs::metadata(place.path(file)).map_or(0, |file| file.len()) < 1000 {
+        assert!(Instant::now() < until, "{file} does not grow");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn a_run_keeps_what_it_computed() {
+    let place = Place::with("ten.toml", TEN);
+    // A step takes some ten microseconds: so many take hours.
+    let words = ["run", "ten.toml", "--out", "long", "--steps", "1000000000", "--set", "output.every=1000"];
+    let running = Running::start(&place, &words);
+    wait_for_rows(&place, "long/steps.csv");
+    running.interrupt();
+    let (code, out, err) = running.end();
+    assert_eq!(code, Some(130), "{err}");
+
+    let steps = place.summary("long")["steps"].as_u64().unwrap();
+    assert!(0 < steps && steps < 1_000_000_000);
+    let message = format!("interrupted: the {steps} steps before are kept in long\n");
+    assert_eq!(err, message, "one message and no progress bar");
+    assert!(out.contains(&format!("{steps} steps")) && out.contains("results in long"), "{out}");
+
+    // Each step has its row, and no row is cut off.
+    let csv = place.read("long/steps.csv");
+    assert!(csv.ends_with('\n') && csv.lines().count() as u64 == 1 + steps, "{steps} steps");
+    let commas = |line: &str| line.matches(',').count();
+    assert!(csv.lines().all(|line| commas(line) == commas(csv.lines().next().unwrap())));
+    assert!(csv.lines().last().unwrap().starts_with(&format!("{steps},")));
+
+    // The collections are whole and name the files that are there.
+    for kind in ["bodies", "contacts"] {
+        let pvd = place.read(&format!("long/vtk/{kind}.pvd"));
+        assert!(pvd.trim_end().ends_with("</VTKFile>"), "{pvd}");
+        let last = format!("{kind}_{:08}.vtp", steps / 1000 * 1000);
+        assert!(pvd.contains(&last) && place.path("long/vtk").join(&last).exists(), "{last} is missing");
+    }
+    let left: Vec<String> = place.all("long").into_keys().filter(|name| name.contains(".moreau")).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn a_quiet_run_says_only_that_it_was_interrupted() {
+    let place = Place::with("ten.toml", TEN);
+    let words = ["run", "ten.toml", "--out", "long", "--steps", "1000000000", "--quiet", "--set", "output.every=0"];
+    let running = Running::start(&place, &words);
+    wait_for_rows(&place, "long/steps.csv");
+    running.interrupt();
+    let (code, out, err) = running.end();
+    assert_eq!((code, out.as_str()), (Some(130), ""));
+    assert!(err.starts_with("interrupted: ") && err.lines().count() == 1, "{err}");
+}
+
+#[test]
+fn a_comparison_ends_with_what_it_has() {
+    let place = Place::with("ten.toml", TEN);
+    // The comparison's own step comes early, so that the long run of the first method is what is interrupted.
+    let words = ["compare", "ten.toml", "--at", "3", "--csv", "table.csv", "--set", "time.steps=1000000000"];
+    let running = Running::start(&place, &words);
+    // It writes nothing on its way that could be waited for.
+    std::thread::sleep(Duration::from_secs(2));
+    running.interrupt();
+    let (code, out, err) = running.end();
+    assert_eq!(code, Some(130), "{err}");
+    assert!(err.starts_with("interrupted: "), "{err}");
+    assert!(out.contains("nlgs+sbp") && !out.contains("nlgs+pdas"), "the first method, and none after it:\n{out}");
+    assert!(place.read("table.csv").contains("nlgs,sbp,"));
+}
