@@ -73,10 +73,11 @@ pub(crate) fn compare(args: &Args) -> Result<(), Failure> {
     for path in args.csv.iter().chain(&args.plot) {
         writable(path)?;
     }
-    match scene::build(&scene)? {
-        AnyWorld::Plane(world) => go(args, &scene, &world),
-        AnyWorld::Solid(world) => go(args, &scene, &world),
-    }
+    let world = scene::build(&scene)?;
+    scene::pool(1)?.install(|| match &world {
+        AnyWorld::Plane(world) => go(args, &scene, world),
+        AnyWorld::Solid(world) => go(args, &scene, world),
+    })
 }
 
 fn go<S: Space<D, N>, const D: usize, const N: usize>(args: &Args, scene: &Scene, world: &World<S, D, N>) -> Result<(), Failure> {
@@ -87,7 +88,9 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(args: &Args, scene: &Scene
     if !args.rho.is_empty() {
         let (csv, plot) = (args.csv.as_deref(), args.plot.as_deref());
         let study = Study { values: &args.rho, methods: &methods, steps, quiet: args.quiet, csv, plot };
-        return say(&aligned(&rho::study(&study, world, stop)?));
+        let (rows, interrupted) = rho::study(&study, world, stop)?;
+        say(&aligned(&rows))?;
+        return if interrupted { Err(Failure::interrupted("the table above is of what was done")) } else { Ok(()) };
     }
     let probe = Probe::new(world, at, 0.01 * world.settings.solver.tolerance, stop).map_err(Failure::file)?;
 
@@ -122,7 +125,9 @@ fn report<S: Space<D, N>, const D: usize, const N: usize>(
     rows: &[Row],
     at: u64,
 ) -> String {
-    let best = |time: fn(&Row) -> f64| rows.iter().map(time).fold(f64::INFINITY, f64::min);
+    // A run that ended early has no time to compare with.
+    let done = |row: &&Row| row.end == End::Done;
+    let best = |time: fn(&Row) -> f64| rows.iter().filter(done).map(time).fold(f64::INFINITY, f64::min);
     let (best_total, best_solve) = (best(|row| row.seconds_total), best(|row| row.seconds_solve));
     let header = ["method", "sweeps/step", "total s", "ratio", "contact forces s", "ratio", "unconverged", "difference"];
     let mut cells = vec![header.map(str::to_owned).to_vec()];
@@ -216,7 +221,7 @@ fn verdict(rows: &[Row], at: u64) -> Result<(), Failure> {
             End::Failed(error) => return Err(Failure::computation(format!("{}: {error}", name(row)))),
         }
     }
-    match rows.iter().find(|row| !(row.disagreement <= AGREEMENT)) {
+    match rows.iter().find(|row| row.disagreement.is_nan() || row.disagreement > AGREEMENT) {
         Some(row) if !row.disagreement.is_finite() => Err(Failure::computation(format!(
             "{}: step {at} does not converge to a hundredth of the tolerance, so velocities cannot be compared",
             name(row)

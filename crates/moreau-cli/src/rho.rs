@@ -22,18 +22,20 @@ pub(crate) struct Study<'a> {
     pub(crate) plot: Option<&'a Path>,
 }
 
-/// Runs `world` with each value and method; returns a table of mean sweeps, and writes CSV and figure if asked.
+/// Runs `world` with each value and method; returns a table of mean sweeps and whether it was cut short, and writes CSV and
+/// figure if asked.
 pub(crate) fn study<S: Space<D, N>, const D: usize, const N: usize>(
     study: &Study<'_>,
     world: &World<S, D, N>,
     stop: &AtomicBool,
-) -> Result<Vec<Vec<String>>, Failure> {
+) -> Result<(Vec<Vec<String>>, bool), Failure> {
     let names: Vec<&str> = study.methods.iter().map(|(_, local)| local.name()).collect();
     let mut rows = vec![std::iter::once("rho W").chain(names.iter().copied()).map(str::to_owned).collect::<Vec<_>>()];
     let mut curves: Vec<Curve> = names.iter().map(|&name| Curve { name: name.to_owned(), points: Vec::new() }).collect();
     let mut csv = format!("rho_relative,{}\n", names.join(","));
     let bar = progress::bar(study.steps * (study.values.len() * study.methods.len()) as u64, study.quiet);
-    for &value in study.values {
+    let mut interrupted = false;
+    'values: for &value in study.values {
         let mut start = world.clone();
         start.settings.solver.rho = Parameter::Relative(value);
         let mut cells = vec![format!("{value}")];
@@ -41,7 +43,8 @@ pub(crate) fn study<S: Space<D, N>, const D: usize, const N: usize>(
             let row = compare_one(&start, None, methods, (study.steps, 1), stop, |record| progress::tick(&bar, record));
             let row = row.map_err(Failure::file)?;
             if row.end == End::Interrupted {
-                return Ok(rows);
+                interrupted = true;
+                break 'values;
             }
             // A value that does not converge has no number of sweeps.
             let converged = row.end == End::Done && row.unconverged == 0;
@@ -60,5 +63,5 @@ pub(crate) fn study<S: Space<D, N>, const D: usize, const N: usize>(
     if let Some(path) = study.plot {
         write_whole(path, &linear("sweeps a step against ρ", "ρ relative to 1/W", "sweeps of NLGS a step", &curves))?;
     }
-    Ok(rows)
+    Ok((rows, interrupted))
 }

@@ -70,6 +70,9 @@ fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
     if vtk.exists() && !vtk.is_dir() {
         return Err(wrong(&vtk, &"it is not a folder"));
     }
+    if vtk.exists() {
+        writable(&vtk.join("bodies.pvd"))?;
+    }
     let old_frames = std::fs::read_dir(&vtk).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_frame = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "vtp" || extension == "pvd");
     for path in files[1..].iter().cloned().chain(old_frames.filter(is_frame)) {
@@ -106,10 +109,7 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
     let settings = world.settings;
     let bodies = world.bodies.len();
     let bar = progress::bar(scene.time.steps, args.quiet);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(usize::from(args.threads))
-        .build()
-        .map_err(|error| Failure::computation(format!("cannot start {} threads: {error}", args.threads)))?;
+    let pool = scene::pool(usize::from(args.threads))?;
     let outcome = pool
         .install(|| {
             moreau::run::run(&mut world, &mut Workspace::default(), scene.time.steps, &mut observers, stop, |record| {

@@ -22,6 +22,12 @@ pub(crate) fn memory_in_use() -> u64 {
     system.process(pid).map_or(0, sysinfo::Process::memory)
 }
 
+/// As many threads as the user asks for.
+pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Failure::computation(format!("cannot start {threads} threads: {error}")))
+}
+
 /// Reads a scene with its overrides.
 pub(crate) fn load(path: &Path, sets: &[String]) -> Result<Scene, Failure> {
     if let Err(error) = std::fs::read(path) {

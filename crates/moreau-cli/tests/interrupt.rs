@@ -27,7 +27,7 @@ impl Running {
 
     /// Sends SIGINT, as a terminal does on Ctrl-C.
     fn interrupt(&self) {
-        let status = Command::new("kill").args(["-INT", &self.0.id().to_string()]).status().expect("kill");
+        let status = Command::new("sh").args(["-c", "kill -INT \"$0\"", &self.0.id().to_string()]).status().expect("sh");
         assert!(status.success(), "the program ended before it was interrupted");
     }
 

@@ -113,6 +113,14 @@ mod tests {
     use crate::block::{dot, sub};
     use proptest::prelude::*;
 
+    #[test]
+    fn a_cone_without_friction_does_not_pull() {
+        for tau in [[-1.0, 0.0, 0.0], [-1.0, 0.5, 0.0], [0.0; 3]] {
+            assert_eq!(Cone::Coulomb(0.0).project(&tau).0, [0.0; 3]);
+        }
+        assert_eq!(Cone::Coulomb(0.0).project(&[2.0, 0.5, 0.0]).0, [2.0, 0.0, 0.0]);
+    }
+
     proptest! {
         /// Moreau's decomposition: τ = P + (τ − P), with τ − P in the polar cone and orthogonal to P.
         #[test]

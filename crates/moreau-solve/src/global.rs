@@ -34,7 +34,7 @@ impl GlobalMethod {
     }
 }
 
-/// Memory that solves share, so that a solve of a size seen before allocates nothing.
+/// Memory that solves share, so that a solve of a size seen before allocates next to nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch<State, const D: usize> {
     pub(crate) state: State,

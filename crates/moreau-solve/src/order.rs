@@ -11,7 +11,7 @@ use rand::{SeedableRng, seq::SliceRandom};
     serde(rename_all = "snake_case")
 )]
 pub enum Order {
-    /// By colour, so that one visit does not wait for the velocity that the last one wrote: half the time a sweep.
+    /// By colour, so that one visit does not wait for the velocity that the last one wrote.
     #[default]
     Coloured,
     /// As they are numbered.

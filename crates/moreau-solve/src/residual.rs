@@ -132,7 +132,12 @@ fn scaled<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, state: &O
         errors += error * error;
         speeds += if cone == Cone::Signorini { q[0] * q[0] + u[0] * u[0] } else { dot(q, q) + dot(&u, &u) };
     }
-    if errors == 0.0 { 0.0 } else { (errors / speeds).sqrt() }
+    // A projection may make zero of what is no number; the velocities still show it.
+    match (errors.is_finite() && speeds.is_finite(), errors == 0.0) {
+        (false, _) => f64::NAN,
+        (true, true) => 0.0,
+        (true, false) => (errors / speeds).sqrt(),
+    }
 }
 
 /// w_c of the scaled residual.

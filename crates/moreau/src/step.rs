@@ -30,6 +30,17 @@ pub enum StepError {
         /// Scaled residual reached.
         scaled: f64,
     },
+    /// A solve left the finite numbers.
+    #[error(
+        "the contact solver left the finite numbers in the step to t = {time} s after {sweeps} sweeps; take a smaller solver.rho or \
+         solver.gamma, or a smaller time.step"
+    )]
+    SolveNotFinite {
+        /// Time at the end of the step, s.
+        time: f64,
+        /// Sweeps done.
+        sweeps: u64,
+    },
     /// A position or velocity is not a finite number.
     #[error("body {body} has a position or velocity that is not a finite number at t = {time} s; take a smaller time.step")]
     NotFinite {

@@ -24,7 +24,8 @@ impl Coulomb {
     #[inline]
     pub(super) fn normal_form<const D: usize>(&self, contact: &Approach<D>) -> Option<NormalForm<D>> {
         let shift = impact_shift(contact, self.acts, self.restitution, self.tangential_restitution)?;
-        Some(NormalForm { cone: Cone::Coulomb(self.friction), shift })
+        let cone = if self.friction == 0.0 { Cone::Signorini } else { Cone::Coulomb(self.friction) };
+        Some(NormalForm { cone, shift })
     }
 
     pub(super) fn check(&self) -> Result<(), LawError> {

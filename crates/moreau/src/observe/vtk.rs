@@ -56,7 +56,9 @@ impl VtkOutput {
         let orientation: Vec<[f64; 4]> = bodies.pose.iter().map(|pose| S::quaternion(pose.rotation)).collect();
         // A half-space has no end: it is a point of its boundary with radius zero, which ParaView's glyphs leave out.
         let radius: Vec<f64> = bodies.shape.iter().map(|shape| shape.bounding_radius().unwrap_or(0.0)).collect();
-        let mass: Vec<f64> = bodies.mass.iter().map(|mass| mass[0]).collect();
+        // A driven body yields to nothing.
+        let weighed = |i: usize| if bodies.is_free(i) { bodies.mass[i][0] } else { f64::INFINITY };
+        let mass: Vec<f64> = all.clone().map(weighed).collect();
         let material: Vec<i32> = bodies.material.iter().map(|&material| i32::from(material)).collect();
         let id: Vec<i64> = all.map(|i| i as i64).collect();
         let data = PolyData {

@@ -196,6 +196,9 @@ fn note<S: Space<D, N>, const D: usize, const N: usize>(record: &mut StepRecord,
 }
 
 fn unconverged(time: f64, report: &Report) -> StepError {
+    if report.status == Status::NotFinite {
+        return StepError::SolveNotFinite { time, sweeps: report.sweeps };
+    }
     StepError::Unconverged {
         time,
         sweeps: report.sweeps,

@@ -62,7 +62,7 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) systems: Systems<D, N>,
     pub(super) ledger: Ledger,
     pub(super) before: Option<Before<S, D, N>>,
-    pub(super) history: Vec<HistoryRow>,
+    pub(crate) history: Vec<HistoryRow>,
 }
 
 impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D, N> {
