@@ -47,13 +47,6 @@ pub struct Residual {
     pub scaled: f64,
 }
 
-impl Residual {
-    /// Whether all numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        self.eps_glob.total().is_finite() && self.scaled.is_finite()
-    }
-}
-
 /// What the three terms of eq. 42 are at one contact.
 #[inline]
 fn eps_glob<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &Vector<D>) -> EpsGlob {

@@ -43,11 +43,6 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         self.contacts.push(Contact { pair, rows, diagonal });
     }
 
-    /// The two bodies of contact `c`.
-    pub fn pair(&self, c: usize) -> [u32; 2] {
-        self.contacts[c].pair
-    }
-
     /// How many contacts it has.
     pub fn len(&self) -> usize {
         self.contacts.len()

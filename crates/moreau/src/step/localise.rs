@@ -85,5 +85,10 @@ fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(
 ) -> f64 {
     let size = pair.iter().filter_map(|&i| bodies.shape[i].bounding_radius()).fold(f64::INFINITY, f64::min);
     let far = pair.iter().flat_map(|&i| bodies.pose[i].position).map(f64::abs).fold(0.0, f64::max);
-    if size.is_finite() { 1e-9 * size + 16.0 * f64::EPSILON * far } else { 0.0 }
+    if size.is_finite() { rounding(size, far) } else { 0.0 }
+}
+
+/// How wrong a gap may be, for bodies of this size this far from the origin.
+pub(super) fn rounding(size: f64, far: f64) -> f64 {
+    1e-9 * size + 16.0 * f64::EPSILON * far
 }

@@ -1,6 +1,6 @@
 //! The step, on one screen: Moreau-Jean time stepping (section 3 of Barboteu & Dumont 2017; Jean 1999).
 
-use super::localise::localise_all;
+use super::localise::{localise_all, rounding};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
@@ -117,7 +117,7 @@ fn reach<S: Space<D, N>, const D: usize, const N: usize>(
 ) -> f64 {
     let radius = world.bodies.shape[i].bounding_radius().unwrap_or(0.0);
     let far = world.bodies.pose[i].position.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
-    let rounding = 1e-9 * radius + 16.0 * f64::EPSILON * far;
+    let rounding = rounding(radius, far);
     if !approach {
         return rounding;
     }

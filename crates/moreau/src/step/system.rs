@@ -1,6 +1,6 @@
 //! Stages 7 to 10 in one kind of coordinates: the problem over K components a contact and L degrees of freedom a body.
 //!
-//! A step without friction needs the normals alone (K = 1), and without friction between round bodies no spin either (L = D). The
+//! A step without friction needs the normals alone (K = 1), and without friction between round bodies no spin either (L = 4 for two or three). The
 //! equations are the same; only less is stored and read.
 
 use super::localise::Rows;
