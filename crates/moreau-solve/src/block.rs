@@ -71,6 +71,7 @@ pub fn tangent_row_sum_norm<const D: usize>(w: &Matrix<D>) -> f64 {
 }
 
 /// The solution x of A x = b by elimination with partial pivoting; `None` where A is singular.
+#[inline(always)]
 pub fn solve<const D: usize>(a: &Matrix<D>, b: &Vector<D>) -> Option<Vector<D>> {
     let (mut a, mut b) = (*a, *b);
     for k in 0..D {

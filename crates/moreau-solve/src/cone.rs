@@ -1,6 +1,12 @@
 //! The sets of pairs (u, r) that a contact allows, and the projections that the methods are made of.
 
-use crate::block::{Matrix, Vector, identity, tangent_norm};
+mod rolling;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use rolling::{part, part_norms};
+
+use crate::block::{Matrix, Vector, axpy, identity, norm, sub, tangent_norm};
 
 /// The law of one contact in normal form: which pairs of velocity u and impulse r it allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +15,16 @@ pub enum Cone {
     Signorini,
     /// Coulomb's friction with the coefficient μ ≥ 0: K* ∋ u + μ‖u_T‖ n ⊥ r ∈ K_μ (eqs. 27-29).
     Coulomb(f64),
+    /// Coulomb's friction with rolling friction: components `[n, t₁, t₂, ρ₁, ρ₂]` in space and `[n, t, ρ]` in the plane, of which the
+    /// last are relative spins and the moments' impulses. K = {r : ‖r_T‖ ≤ μ r_n, ‖r_R‖ ≤ μ_r r_n} and
+    /// K* ∋ u + (μ‖u_T‖ + μ_r‖u_R‖) n ⊥ r ∈ K (Acary & Bourrier 2021; theory (48)). With D components T is 1 … (D+1)/2 − 1 and R the
+    /// rest: one component is Signorini's law, two are a normal and a moment.
+    Rolling {
+        /// The coefficient μ ≥ 0 of sliding.
+        mu: f64,
+        /// The coefficient μ_r ≥ 0 of rolling, a length where R are moments.
+        mu_r: f64,
+    },
     /// The tangential velocity is held: u_T = 0 and 0 ≤ u_n ⊥ r_n ≥ 0, the impulses being a half space. It is Coulomb's cone for
     /// μ → ∞, and convex; the law that uses it decides by the gap whether a contact is held.
     Sticking,
@@ -19,33 +35,110 @@ impl Cone {
     #[inline]
     pub fn friction(self) -> f64 {
         match self {
-            Cone::Coulomb(mu) => mu,
+            Cone::Coulomb(mu) | Cone::Rolling { mu, .. } => mu,
             Cone::Signorini | Cone::Sticking => 0.0,
         }
     }
 
-    /// The projection on the cone of impulses, of K_μ for Coulomb (eq. 29), with its derivative.
+    /// û, the velocity with de Saxcé's correction, m/s: the law is K* ∋ û ⊥ r ∈ K. It is u + μ‖u_T‖ n for Coulomb (eq. 28),
+    /// u + (μ‖u_T‖ + μ_r‖u_R‖) n with rolling, and u itself for the laws whose cone needs none.
+    #[inline(always)]
+    pub fn hat<const D: usize>(self, u: &Vector<D>) -> Vector<D> {
+        let mut hat = *u;
+        match self {
+            Cone::Coulomb(mu) => hat[0] += mu * tangent_norm(u),
+            Cone::Rolling { mu, mu_r } => hat[0] += rolling::lift(mu, mu_r, *u),
+            Cone::Signorini | Cone::Sticking => {}
+        }
+        hat
+    }
+
+    /// g in ∂û/∂u = I + n ⊗ g. At rest the direction is free, and none is taken.
+    #[inline(always)]
+    pub fn hat_gradient<const D: usize>(self, u: &Vector<D>) -> Vector<D> {
+        match self {
+            Cone::Coulomb(mu) => {
+                let slip = tangent_norm(u);
+                std::array::from_fn(|j| if j > 0 && slip > 0.0 { mu * u[j] / slip } else { 0.0 })
+            }
+            Cone::Rolling { mu, mu_r } => rolling::hat_gradient(mu, mu_r, *u),
+            Cone::Signorini | Cone::Sticking => [0.0; D],
+        }
+    }
+
+    /// ∂û/∂u; see [`hat_gradient`](Self::hat_gradient).
     #[inline]
+    pub fn hat_derivative<const D: usize>(self, u: &Vector<D>) -> Matrix<D> {
+        let mut derivative = identity();
+        derivative[0] = axpy(&derivative[0], 1.0, &self.hat_gradient(u));
+        derivative
+    }
+
+    /// The projection on the cone of impulses, of K_μ for Coulomb (eq. 29), with an element of its generalised
+    /// derivative, which is the derivative where there is one.
+    #[inline(always)]
     pub fn project<const D: usize>(self, tau: &Vector<D>) -> (Vector<D>, Matrix<D>) {
         match self {
             Cone::Coulomb(mu) if D > 1 => project_second_order(mu, tau),
             Cone::Coulomb(_) | Cone::Signorini => project_normal(tau, 0.0),
+            Cone::Rolling { mu, mu_r } => {
+                let (value, derivative) = rolling::project(mu, mu_r, *tau);
+                (value, derivative)
+            }
             Cone::Sticking => project_normal(tau, 1.0),
         }
     }
 
-    /// The projection on C(μ max(0, τ_n)), the half cylinder of eq. 23 whose radius follows the normal part, with its derivative.
-    #[inline]
+    /// The projection on C(μ max(0, τ_n)), the half cylinder of eq. 23 whose radius follows the normal part, with its derivative. With
+    /// rolling two disks follow it.
+    #[inline(always)]
     pub fn project_cylinder<const D: usize>(self, tau: &Vector<D>) -> (Vector<D>, Matrix<D>) {
         match self {
             Cone::Coulomb(mu) if D > 1 => project_disk(mu, tau),
+            Cone::Rolling { mu, mu_r } => {
+                let (value, derivative) = rolling::project_cylinder(mu, mu_r, *tau);
+                (value, derivative)
+            }
             _ => self.project(tau),
         }
+    }
+
+    /// The projection of [`project`](Self::project) alone: what is not asked for is not computed.
+    #[inline(always)]
+    pub fn nearest<const D: usize>(self, tau: &Vector<D>) -> Vector<D> {
+        match self {
+            Cone::Coulomb(mu) if D > 1 => project_second_order(mu, tau).0,
+            Cone::Coulomb(_) | Cone::Signorini => project_normal(tau, 0.0).0,
+            Cone::Rolling { mu, mu_r } => rolling::project(mu, mu_r, *tau).0,
+            Cone::Sticking => project_normal(tau, 1.0).0,
+        }
+    }
+
+    /// The projection of [`project_cylinder`](Self::project_cylinder) alone.
+    #[inline(always)]
+    pub fn nearest_in_cylinder<const D: usize>(self, tau: &Vector<D>) -> Vector<D> {
+        match self {
+            Cone::Coulomb(mu) if D > 1 => project_disk(mu, tau).0,
+            Cone::Rolling { mu, mu_r } => rolling::project_cylinder(mu, mu_r, *tau).0,
+            _ => self.nearest(tau),
+        }
+    }
+
+    /// The projection of a velocity on the dual cone K*, by Moreau's decomposition: x + P_K(−x).
+    #[inline(always)]
+    pub fn project_dual<const D: usize>(self, x: &Vector<D>) -> Vector<D> {
+        axpy(x, 1.0, &self.nearest(&x.map(|x| -x)))
+    }
+
+    /// The distance of an impulse to the cone K, N·s.
+    #[inline]
+    pub fn distance<const D: usize>(self, r: &Vector<D>) -> f64 {
+        norm(&sub(r, &self.nearest(r)))
     }
 }
 
 /// ([τ_n]₊, keep·τ_T): the half line (keep = 0) or the half space (keep = 1).
-#[inline]
+#[inline(always)]
 fn project_normal<const D: usize>(tau: &Vector<D>, keep: f64) -> (Vector<D>, Matrix<D>) {
     let closed = f64::from(u8::from(tau[0] > 0.0));
     let weight = |i: usize| if i == 0 { closed } else { keep };
@@ -54,7 +147,7 @@ fn project_normal<const D: usize>(tau: &Vector<D>, keep: f64) -> (Vector<D>, Mat
 }
 
 /// The orthogonal projection on K_μ.
-#[inline]
+#[inline(always)]
 fn project_second_order<const D: usize>(mu: f64, tau: &Vector<D>) -> (Vector<D>, Matrix<D>) {
     let length = tangent_norm(tau);
     // The polar cone first: for μ = 0 and τ_T = 0 both tests hold of a pull.
@@ -72,7 +165,7 @@ fn project_second_order<const D: usize>(mu: f64, tau: &Vector<D>) -> (Vector<D>,
 }
 
 /// The projection of τ_T on the disk of radius μ [τ_n]₊.
-#[inline]
+#[inline(always)]
 fn project_disk<const D: usize>(mu: f64, tau: &Vector<D>) -> (Vector<D>, Matrix<D>) {
     if tau[0] <= 0.0 {
         return ([0.0; D], [[0.0; D]; D]);
@@ -105,47 +198,4 @@ fn boundary_derivative<const D: usize>(
             ray + turn * (same - tau[i] * tau[j] / (length * length))
         })
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::block::{dot, sub};
-    use proptest::prelude::*;
-
-    #[test]
-    fn a_cone_without_friction_does_not_pull() {
-        for tau in [[-1.0, 0.0, 0.0], [-1.0, 0.5, 0.0], [0.0; 3]] {
-            assert_eq!(Cone::Coulomb(0.0).project(&tau).0, [0.0; 3]);
-        }
-        assert_eq!(Cone::Coulomb(0.0).project(&[2.0, 0.5, 0.0]).0, [2.0, 0.0, 0.0]);
-    }
-
-    proptest! {
-        /// Moreau's decomposition: τ = P + (τ − P), with τ − P in the polar cone and orthogonal to P.
-        #[test]
-        fn projection_splits_orthogonally(mu in 0.0..3.0f64, tau in prop::array::uniform3(-5.0..5.0f64)) {
-            let (p, _) = Cone::Coulomb(mu).project(&tau);
-            let rest = sub(&tau, &p);
-            prop_assert!(tangent_norm(&p) <= mu * p[0] + 1e-12);
-            prop_assert!(dot(&p, &rest).abs() < 1e-12);
-            prop_assert!(mu * tangent_norm(&rest) <= -rest[0] + 1e-12);
-        }
-
-        #[test]
-        fn derivatives_match_differences(mu in 0.05..2.0f64, tau in prop::array::uniform3(-5.0..5.0f64), k in 0usize..3) {
-            for map in [Cone::project::<3>, Cone::project_cylinder::<3>] {
-                let cone = Cone::Coulomb(mu);
-                let step = 1e-6;
-                let moved = |s: f64| { let mut t = tau; t[k] += s; map(cone, &t) };
-                let ((ahead, d1), (behind, d0)) = (moved(step), moved(-step));
-                let smooth = (0..3).all(|i| (0..3).all(|j| (d1[i][j] - d0[i][j]).abs() < 1e-3));
-                prop_assume!(smooth); // no kink between the two points
-                let (_, d) = map(cone, &tau);
-                for i in 0..3 {
-                    prop_assert!(((ahead[i] - behind[i]) / (2.0 * step) - d[i][k]).abs() < 1e-4);
-                }
-            }
-        }
-    }
 }

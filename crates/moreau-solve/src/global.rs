@@ -1,11 +1,19 @@
 //! Global solvers: all contacts together.
 
+mod accelerated;
+pub(crate) mod judge;
+mod mixing;
 mod nlgs;
+mod sweep;
 
 use crate::block::Vector;
-use crate::{Operator, Problem, Report, Row, Settings};
+use crate::local::{LocalSolver, WithLocal, with_local};
+use crate::report::Stage;
+use crate::residual::measure;
+use crate::{Operator, Problem, Report, Row, Settings, Status};
+use judge::Judge;
 
-/// The methods by name. Adding one is a file, a variant with its row in [`GLOBAL_METHODS`], and an arm of [`solve`].
+/// The methods by name. Adding one is a file, a variant with its row in [`GLOBAL_METHODS`], and an arm of [`Work::run`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(
     feature = "schema",
@@ -16,11 +24,15 @@ pub enum GlobalMethod {
     /// Nonlinear Gauss-Seidel.
     #[default]
     Nlgs,
+    /// Nonlinear Gauss-Seidel with momentum.
+    Accelerated,
 }
 
 /// The table of global solvers.
-pub const GLOBAL_METHODS: &[(GlobalMethod, Row)] =
-    &[(GlobalMethod::Nlgs, Row { name: "nlgs", about: "nonlinear Gauss-Seidel: contact by contact until all agree" })];
+pub const GLOBAL_METHODS: &[(GlobalMethod, Row)] = &[
+    (GlobalMethod::Nlgs, Row { name: "nlgs", about: "nonlinear Gauss-Seidel: contact by contact until all agree" }),
+    (GlobalMethod::Accelerated, Row { name: "accelerated", about: "NLGS with Nesterov's momentum, restarts and a safeguard" }),
+];
 
 impl GlobalMethod {
     /// Its name in [`GLOBAL_METHODS`].
@@ -40,12 +52,82 @@ pub struct Scratch<State, const D: usize> {
     pub(crate) state: State,
     pub(crate) claimed: Vec<Vector<D>>,
     pub(crate) order: Vec<u32>,
+    /// Of methods with momentum: the impulses from which a sweep starts and those where the last one ended, with its state.
+    pub(crate) from: Vec<Vector<D>>,
+    pub(crate) previous: Vec<Vector<D>>,
+    pub(crate) earlier: State,
+    pub(crate) spare: State,
+    pub(crate) mixing: mixing::Mixing,
+    /// The best impulses seen, of methods that may get worse.
+    pub(crate) best: Vec<Vector<D>>,
 }
 
 impl<State, const D: usize> Scratch<State, D> {
     /// The operator's state at the end of the last solve: what the final impulses do.
     pub fn state(&self) -> &State {
         &self.state
+    }
+}
+
+/// A solve at work: what every global method reads and writes.
+pub(crate) struct Work<'a, O: Operator<D>, const D: usize> {
+    pub problem: &'a Problem<'a, O, D>,
+    pub settings: &'a Settings,
+    /// The impulses: the first guess, and then the answer.
+    pub r: &'a mut [Vector<D>],
+    pub scratch: &'a mut Scratch<O::State, D>,
+    pub judge: Judge<'a, O, D>,
+}
+
+impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
+    /// Runs one method from the impulses of now.
+    fn run(&mut self, method: GlobalMethod) -> Status {
+        match method {
+            GlobalMethod::Nlgs | GlobalMethod::Accelerated => with_local(self.settings, Sweeping { work: self, method }),
+        }
+    }
+
+    /// Makes ready for sweeps from the impulses of now with the local solver `L`.
+    fn begin<L: LocalSolver>(&mut self) {
+        let n = self.problem.len();
+        self.settings.order.fill(self.problem.operator, n, &mut self.scratch.order);
+        self.scratch.claimed.clear();
+        self.scratch.claimed.resize(if L::CLAIMS { n } else { 0 }, [0.0; D]);
+        self.problem.operator.start(self.r, &mut self.scratch.state);
+    }
+
+    /// Asks the judge after a step of a method that claims no velocities; `state` of the scratch must stand for the impulses.
+    #[expect(dead_code, reason = "for methods of steps")]
+    fn after_step(&mut self) -> Option<Status> {
+        self.judge.after_step(&mut self.scratch.state, self.r, None)
+    }
+
+    /// Asks the judge after a sweep.
+    fn after_sweep(&mut self) -> Option<Status> {
+        let claimed = claims(&self.scratch.claimed);
+        self.judge.after_sweep(&mut self.scratch.state, self.r, claimed)
+    }
+}
+
+/// The claimed velocities, of methods that claim any.
+fn claims<const D: usize>(claimed: &[Vector<D>]) -> Option<&[Vector<D>]> {
+    if claimed.is_empty() { None } else { Some(claimed) }
+}
+
+/// A method that sweeps, waiting for its local solver.
+struct Sweeping<'a, 'b, O: Operator<D>, const D: usize> {
+    work: &'a mut Work<'b, O, D>,
+    method: GlobalMethod,
+}
+
+impl<O: Operator<D>, const D: usize> WithLocal for Sweeping<'_, '_, O, D> {
+    type Output = Status;
+
+    fn run<L: LocalSolver>(self, local: L) -> Status {
+        match self.method {
+            GlobalMethod::Accelerated => accelerated::run(self.work, local),
+            _ => nlgs::run(self.work, local),
+        }
     }
 }
 
@@ -58,7 +140,19 @@ pub fn solve<O: Operator<D>, const D: usize>(
     r: &mut [Vector<D>],
     scratch: &mut Scratch<O::State, D>,
 ) -> Report {
-    match settings.global {
-        GlobalMethod::Nlgs => crate::local::with_local(settings, nlgs::Nlgs { problem, settings, r, scratch }),
+    scratch.claimed.clear();
+    let mut work = Work { problem, settings, r, scratch, judge: Judge::new(problem, settings) };
+    let status = if problem.is_empty() { Status::Converged } else { work.run(settings.global) };
+    let Work { r, scratch, judge, .. } = work;
+    problem.operator.start(r, &mut scratch.state);
+    let residual = measure(problem, &scratch.state, r, claims(&scratch.claimed));
+    let stage = Stage { method: settings.global, sweeps: judge.sweeps, error: residual.of(settings.criterion), status };
+    Report {
+        status,
+        sweeps: judge.sweeps,
+        stages: vec![stage],
+        residual,
+        unfinished_visits: judge.unfinished_visits,
+        history: judge.history,
     }
 }

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! where W is the Delassus operator (eq. 17 of Barboteu & Dumont 2017). Components are ordered normal first: `[n, t]` for `D = 2`,
-//! `[n, t₁, t₂]` for `D = 3`. `D = 1` is a problem without friction, of which only the normals are left. u_n > 0 separates, r_n ≥ 0
+//! `[n, t₁, t₂]` for `D = 3`. `D = 1` is a problem without friction, of which only the normals are left. With rolling friction the
+//! relative spins follow: `[n, t, ρ]` for `D = 3`, `[n, t₁, t₂, ρ₁, ρ₂]` for `D = 5`. u_n > 0 separates, r_n ≥ 0
 //! pushes. [`Cone`] names the laws, [`Problem`] holds one problem, [`solve`] solves it and returns a [`Report`].
 //!
 //! ```
@@ -24,6 +25,8 @@
 
 pub mod block;
 mod cone;
+#[cfg(feature = "files")]
+pub mod files;
 pub mod global;
 pub mod law;
 pub mod local;
@@ -41,8 +44,8 @@ pub use local::LocalMethod;
 pub use operator::{Delassus, MatrixFree, Operator};
 pub use order::Order;
 pub use problem::Problem;
-pub use report::{HistoryRow, Report, Status};
-pub use residual::{EpsGlob, Residual};
+pub use report::{HistoryRow, Report, Stage, Status};
+pub use residual::{EpsGlob, Residual, Worst};
 pub use settings::{Criterion, Parameter, Resolved, Settings, SettingsError};
 
 /// One line of a table of what can be named in a scene: laws, solvers, shapes, outputs.

@@ -2,15 +2,18 @@
 //!
 //! A visit gets the block W_cc, the law, and the pair (u, r) as the equation of motion has it; it returns a new impulse and, for
 //! methods that are exact in the law rather than in the motion, the velocity that they claim. Without friction all of them solve
-//! 0 ≤ u_n ⊥ r_n ≥ 0; with friction, Coulomb's law in two and three dimensions.
+//! 0 ≤ u_n ⊥ r_n ≥ 0; with friction, Coulomb's law in two and three dimensions, and rolling friction
+//! with three and five components. Blocks may be singular, somewhat unsymmetric or zero: no visit makes of finite numbers others.
 
 mod eal;
 mod ebp;
 mod exact;
 mod newton;
 mod pdas;
+mod rolling;
 mod sal;
 mod sbp;
+mod sliding;
 #[cfg(test)]
 mod tests;
 
@@ -110,6 +113,10 @@ pub fn with_local<T: WithLocal>(settings: &Settings, task: T) -> T::Output {
         LocalMethod::Exact => task.run(Exact),
     }
 }
+
+/// What counts as no mobility at all, 1/kg: below it a step 1/W, squared in a norm, might leave the numbers. A block of zeros is what
+/// is meant: a contact between bodies that are driven, or a direction in which neither can move.
+const IMMOVABLE: f64 = 1e-120;
 
 /// The velocity without the impulse of this contact.
 #[inline]

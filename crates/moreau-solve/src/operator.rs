@@ -7,6 +7,7 @@ pub use delassus::Delassus;
 pub use matrix_free::{MatrixFree, NONE};
 
 use crate::block::{Matrix, Vector};
+use std::borrow::Cow;
 
 /// What a Gauss-Seidel sweep asks of W. `State` stands for the impulses applied so far.
 pub trait Operator<const D: usize>: Sync {
@@ -26,6 +27,21 @@ pub trait Operator<const D: usize>: Sync {
     /// An operator that does not know its bodies leaves `order` as it is.
     fn colour(&self, _order: &mut [u32]) {}
 
+    /// state ← state + β (state − previous): the state of extrapolated impulses, since it is linear in them.
+    fn extrapolate(&self, state: &mut Self::State, previous: &Self::State, beta: f64);
+
+    /// W in stored blocks, for methods that factorise it.
+    fn stored(&self) -> Cow<'_, Delassus<D>>;
+
     /// One visit: gives W_cc and (W r)_c to `visit`, and adds the change of the impulse that it returns.
     fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<D>, Vector<D>) -> Vector<D>);
+}
+
+/// a ← a + β (a − b), for states that are arrays of vectors.
+fn extrapolate<const K: usize>(a: &mut [[f64; K]], b: &[[f64; K]], beta: f64) {
+    for (a, b) in a.iter_mut().zip(b) {
+        for k in 0..K {
+            a[k] += beta * (a[k] - b[k]);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What a solve says of itself, measured by [`crate::residual`] and never by the solver.
 
-use crate::Residual;
+use crate::{GlobalMethod, Residual};
 
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,6 +10,12 @@ pub enum Status {
     Converged,
     /// The limit of sweeps was reached first.
     MaxSweeps,
+    /// The limit of seconds was reached first.
+    OutOfTime,
+    /// The method can do no more: a matrix that it cannot factorise, or steps that no longer lower the residual.
+    Stalled,
+    /// The method is not made for such a problem: too large for its dense matrix, or a law that it does not know.
+    Unsuited,
     /// A velocity or an impulse is not a finite number.
     NotFinite,
 }
@@ -23,13 +29,28 @@ pub struct HistoryRow {
     pub residual: Residual,
 }
 
+/// What one method did within a solve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stage {
+    /// The method.
+    pub method: GlobalMethod,
+    /// Its sweeps, or steps where it has none.
+    pub sweeps: u64,
+    /// The criterion when it ended.
+    pub error: f64,
+    /// How it ended.
+    pub status: Status,
+}
+
 /// The outcome of a solve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// How it ended.
     pub status: Status,
-    /// How many sweeps were done.
+    /// How many sweeps were done, or steps of a method that has none.
     pub sweeps: u64,
+    /// The methods that were at work, in turn: one, unless the method chooses among others.
+    pub stages: Vec<Stage>,
     /// Measured at the end, from the impulses alone.
     pub residual: Residual,
     /// Visits of the last sweep in which the local solver did not reach its own end.

@@ -1,6 +1,6 @@
 //! How good an answer is: one place, used by all solvers and owned by none.
 //!
-//! Two measures. The paper's ε_glob (eq. 42) is the mean over the contacts of
+//! Three measures. The paper's ε_glob (eq. 42) is the mean over the contacts of
 //!
 //! - ε_motion = ‖ũ_c − u_c‖, the velocity ũ that the local solver claims against u = W r + q recomputed from all impulses; zero for
 //!   methods that claim none (SBP and SAL);
@@ -16,6 +16,12 @@
 //! with P_K the projection on the cone of impulses: e_c is a velocity, zero exactly at a solution, and the velocities without and with
 //! impulses (of which only the normal part counts where there is no friction) are what it is compared with. Velocities here are those of the normal form, with
 //! the shift added; with restitution they are 1 + e times the formal ones of eq. 21, so with one coefficient e ε_glob is never smaller than the paper's.
+//!
+//! The residual that Siconos reports takes 1 in the place of w_c, and so depends on the units:
+//!
+//! ```text
+//! siconos = √(Σ ‖r − P_K(r − û)‖²) / max(‖q‖, ‖r‖, ‖u‖)
+//! ```
 
 use crate::block::{Vector, axpy, dot, norm, sub, tangent_norm};
 use crate::{Cone, Criterion, Operator, Problem};
@@ -38,13 +44,49 @@ impl EpsGlob {
     }
 }
 
-/// Both measures of one answer.
+/// The contact with the largest e_c.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// Its index in the problem.
+    pub contact: usize,
+    /// Its e_c, m/s.
+    pub error: f64,
+}
+
+/// The certificate of one answer: all measures of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
     /// The paper's criterion in its parts.
     pub eps_glob: EpsGlob,
     /// The scaled residual, without units.
     pub scaled: f64,
+    /// The residual that Siconos reports.
+    pub siconos: f64,
+    /// How far claimed velocities are from W r + q, in the scale of the scaled residual: √(Σ ‖ũ − u‖²) / √(Σ ‖q‖² + ‖u‖²).
+    pub motion: f64,
+    /// How far impulses and velocities are from their cones, in the same scale: of w dist(r, K) + dist(û, K*).
+    pub cone: f64,
+    /// How far they are from being orthogonal, in the same scale: of w |û·r| / (w ‖r‖ + ‖û‖).
+    pub complementarity: f64,
+    /// Where the error is largest; `None` where there is no contact.
+    pub worst: Option<Worst>,
+}
+
+impl Residual {
+    /// The one number that `criterion` looks at.
+    pub fn of(&self, criterion: Criterion) -> f64 {
+        match criterion {
+            Criterion::EpsGlob => self.eps_glob.total(),
+            Criterion::Scaled => self.scaled,
+            Criterion::Siconos => self.siconos,
+            Criterion::Strict => larger(self.scaled, self.siconos),
+        }
+    }
+}
+
+/// The larger, or NaN if one is no number: `f64::max` would hide it.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
 }
 
 /// What the three terms of eq. 42 are at one contact.
@@ -57,30 +99,66 @@ fn eps_glob<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &
         Cone::Signorini => (claimed[0] * r[0], (claimed[0] - u[0]).abs()),
         Cone::Coulomb(mu) => (dot(claimed, r) + mu * r[0] * slip, norm(&sub(claimed, u))),
         Cone::Sticking => (dot(claimed, r), norm(&sub(claimed, u))),
+        Cone::Rolling { .. } => (dot(&cone.hat(claimed), r), norm(&sub(claimed, u))),
     };
     EpsGlob { motion, bipotential: power.abs(), penetration: (-claimed[0]).max(0.0) + held }
 }
 
-/// w ‖r − P_K(r − û/w)‖ at one contact.
+/// u, or its normal part where the law has no tangent.
 #[inline]
-fn natural<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
-    if cone == Cone::Signorini {
-        return (w * (r[0] - (r[0] - u[0] / w).max(0.0))).abs();
-    }
-    let mut hat = *u;
-    hat[0] += cone.friction() * tangent_norm(u);
-    let (image, _) = cone.project(&axpy(r, -1.0 / w, &hat));
-    w * norm(&sub(r, &image))
+fn seen<const D: usize>(cone: Cone, u: &Vector<D>) -> Vector<D> {
+    if cone == Cone::Signorini { std::array::from_fn(|i| if i == 0 { u[0] } else { 0.0 }) } else { *u }
 }
 
-/// Both measures at the impulses `r` for which `state` stands; `claimed` are the velocities that local solvers gave, if they do.
+/// w ‖r − P_K(r − û/w)‖ at one contact. A contact that impulses do not move, w = 0, leaves of it the distance of û to K*.
+#[inline]
+fn natural<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
+    if cone == Cone::Signorini && w > 0.0 {
+        return (w * (r[0] - (r[0] - u[0] / w).max(0.0))).abs();
+    }
+    let hat = cone.hat(&seen(cone, u));
+    if w > 0.0 {
+        let (image, _) = cone.project(&axpy(r, -1.0 / w, &hat));
+        w * norm(&sub(r, &image))
+    } else {
+        norm(&cone.project(&hat.map(|x| -x)).0)
+    }
+}
+
+/// All measures at the impulses `r` for which `state` stands; `claimed` are the velocities that local solvers gave, if they do.
 pub fn measure<O: Operator<D>, const D: usize>(
     problem: &Problem<'_, O, D>,
     state: &O::State,
     r: &[Vector<D>],
     claimed: Option<&[Vector<D>]>,
 ) -> Residual {
-    Residual { eps_glob: mean_eps_glob(problem, state, r, claimed), scaled: scaled(problem, state, r) }
+    let (mut motion, mut outside, mut power, mut speeds) = (0.0, 0.0, 0.0, 0.0);
+    let mut worst: Option<Worst> = None;
+    for c in 0..problem.len() {
+        let (cone, q, u) = (problem.cones[c], &problem.q[c], problem.velocity(state, c));
+        let (w, hat) = (mean_diagonal(problem, c), cone.hat(&seen(cone, &u)));
+        speeds += squared(&seen(cone, q)) + squared(&seen(cone, &u));
+        motion += claimed.map_or(0.0, |claimed| squared(&seen(cone, &sub(&claimed[c], &u))));
+        let beyond = w * norm(&sub(&r[c], &cone.project(&r[c]).0)) + norm(&cone.project(&hat.map(|x| -x)).0);
+        outside += beyond * beyond;
+        let sizes = w * norm(&r[c]) + norm(&hat);
+        let normalised = if sizes > 0.0 { w * dot(&hat, &r[c]) / sizes } else { 0.0 };
+        power += normalised * normalised;
+        let error = natural(cone, w, &u, &r[c]);
+        // Also where it is no number, which no comparison would find.
+        if worst.is_none_or(|worst| !worst.error.is_nan() && (error.is_nan() || error > worst.error)) {
+            worst = Some(Worst { contact: c, error });
+        }
+    }
+    Residual {
+        eps_glob: mean_eps_glob(problem, state, r, claimed),
+        scaled: scaled(problem, state, r),
+        siconos: siconos(problem, state, r),
+        motion: ratio(motion, speeds),
+        cone: ratio(outside, speeds),
+        complementarity: ratio(power, speeds),
+        worst,
+    }
 }
 
 /// The one number that is compared with the tolerance.
@@ -94,6 +172,8 @@ pub fn criterion<O: Operator<D>, const D: usize>(
     match which {
         Criterion::EpsGlob => mean_eps_glob(problem, state, r, claimed).total(),
         Criterion::Scaled => scaled(problem, state, r),
+        Criterion::Siconos => siconos(problem, state, r),
+        Criterion::Strict => larger(scaled(problem, state, r), siconos(problem, state, r)),
     }
 }
 
@@ -125,17 +205,41 @@ fn scaled<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, state: &O
         errors += error * error;
         speeds += if cone == Cone::Signorini { q[0] * q[0] + u[0] * u[0] } else { dot(q, q) + dot(&u, &u) };
     }
-    // A projection may make zero of what is no number; the velocities still show it.
-    match (errors.is_finite() && speeds.is_finite(), errors == 0.0) {
+    ratio(errors, speeds)
+}
+
+/// The residual that Siconos reports.
+fn siconos<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, state: &O::State, r: &[Vector<D>]) -> f64 {
+    let (mut errors, mut qq, mut rr, mut uu) = (0.0, 0.0, 0.0, 0.0);
+    for c in 0..problem.len() {
+        let (cone, u) = (problem.cones[c], problem.velocity(state, c));
+        let error = natural(cone, 1.0, &u, &r[c]);
+        errors += error * error;
+        qq += squared(&seen(cone, &problem.q[c]));
+        rr += squared(&r[c]);
+        uu += squared(&seen(cone, &u));
+    }
+    ratio(errors, larger(qq, larger(rr, uu)))
+}
+
+/// √(a/b), zero where a is, NaN where one is not finite: a projection may make zero of what is no number, the sizes still show it.
+fn ratio(a: f64, b: f64) -> f64 {
+    match (a.is_finite() && b.is_finite(), a == 0.0) {
         (false, _) => f64::NAN,
         (true, true) => 0.0,
-        (true, false) => (errors / speeds).sqrt(),
+        (true, false) => (a / b).sqrt(),
     }
+}
+
+/// ‖a‖².
+#[inline]
+fn squared<const D: usize>(a: &Vector<D>) -> f64 {
+    dot(a, a)
 }
 
 /// w_c of the scaled residual.
 #[inline]
-fn mean_diagonal<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, c: usize) -> f64 {
+pub(crate) fn mean_diagonal<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, c: usize) -> f64 {
     let block = problem.operator.diagonal(c);
     if problem.cones[c] == Cone::Signorini {
         return block[0][0];

@@ -15,6 +15,10 @@ pub enum Criterion {
     EpsGlob,
     /// The scaled residual, which does not depend on units; see [`crate::residual`].
     Scaled,
+    /// The residual that Siconos reports, which does.
+    Siconos,
+    /// The larger of the scaled and Siconos's residual.
+    Strict,
 }
 
 /// The parameter ρ of SBP, SAL, EBP and EAL, or γ of PDAS: how far a velocity moves an impulse, kg.
@@ -71,8 +75,14 @@ pub struct Settings {
     pub criterion: Criterion,
     /// Where to stop.
     pub tolerance: f64,
-    /// After how many sweeps to give up.
+    /// After how many sweeps, or steps of a method that has none, to give up.
     pub max_sweeps: u64,
+    /// After how many seconds to give up. A solve that is stopped by the clock need not give the same bits again.
+    pub max_seconds: Option<f64>,
+    /// Over-relaxation ω of Gauss-Seidel sweeps, between 0 and 2: r ← P_K(r + ω (r⁺ − r)).
+    pub relaxation: f64,
+    /// Whether every second sweep of plain Gauss-Seidel goes backwards.
+    pub symmetric: bool,
     /// The order of a sweep.
     pub order: Order,
     /// ρ of SBP, SAL, EBP, EAL.
@@ -92,6 +102,9 @@ impl Default for Settings {
             criterion: Criterion::EpsGlob,
             tolerance: 1e-7,
             max_sweeps: 100_000,
+            max_seconds: None,
+            relaxation: 1.0,
+            symmetric: false,
             order: Order::Coloured,
             rho: Parameter::Auto,
             gamma: Parameter::Auto,
@@ -124,6 +137,12 @@ impl Settings {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(SettingsError { setting, value, range: "a positive, finite number" });
             }
+        }
+        if !(self.relaxation > 0.0 && self.relaxation < 2.0) {
+            return Err(SettingsError { setting: "relaxation", value: self.relaxation, range: "between 0 and 2, both excluded" });
+        }
+        if let Some(value) = self.max_seconds.filter(|&seconds| seconds.is_nan() || seconds <= 0.0) {
+            return Err(SettingsError { setting: "max_seconds", value, range: "a positive number" });
         }
         if self.max_sweeps == 0 {
             return Err(SettingsError { setting: "max_sweeps", value: 0.0, range: "1 or more" });

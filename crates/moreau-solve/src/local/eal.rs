@@ -7,8 +7,9 @@
 //! Reference: Alart & Curnier 1991; Dumont 2013. Claims the velocity of its last round.
 
 use super::newton::{Image, newton};
+use super::rolling::equilibrated;
 use super::sal::steps;
-use super::{LocalSolver, Visit};
+use super::{LocalSolver, Visit, separated};
 use crate::block::{Matrix, Vector};
 use crate::{Cone, Resolved};
 
@@ -24,8 +25,27 @@ impl LocalSolver for Eal {
 
     #[inline]
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
-        let rho = steps(self.rho, w);
-        newton(w, u, r, |r, u| {
+        if let Cone::Rolling { mu, mu_r } = cone {
+            let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.rolling(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        self.newton(w, cone, u, r)
+    }
+}
+
+impl Eal {
+    /// The iteration for a contact with rolling, in variables of one unit; its own copy, so that the other is free of its cases.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn rolling<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        self.newton(w, cone, u, r)
+    }
+
+    /// The iteration itself.
+    #[inline(always)]
+    fn newton<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        let Some(rho) = steps(self.rho, w) else { return separated(w, u, r) };
+        newton(w, u, r, move |r, u| {
             let tau = std::array::from_fn(|i| r[i] - rho[i] * u[i]);
             let (value, by_r) = cone.project_cylinder(&tau);
             let by_u = std::array::from_fn(|i| std::array::from_fn(|j| -by_r[i][j] * rho[j]));

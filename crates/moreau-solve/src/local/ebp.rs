@@ -8,8 +8,9 @@
 //! Without friction it ends in one round with contact and one without, whatever ρ. Claims the velocity of its last round.
 
 use super::newton::{Image, newton};
-use super::{LocalSolver, Visit};
-use crate::block::{Matrix, Vector, axpy, row_sum_norm, tangent_norm};
+use super::rolling::equilibrated;
+use super::{IMMOVABLE, LocalSolver, Visit, separated};
+use crate::block::{Matrix, Vector, axpy, row_sum_norm};
 use crate::{Cone, Resolved};
 
 /// Newton to convergence on Coulomb's cone.
@@ -24,16 +25,35 @@ impl LocalSolver for Ebp {
 
     #[inline]
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
-        let rho = self.rho.value(1.0 / row_sum_norm(w));
-        newton(w, u, r, |r, u| {
-            let slip = tangent_norm(u);
-            let mu = cone.friction();
-            let mut hat = *u;
-            hat[0] += mu * slip;
-            let (value, by_r) = cone.project(&axpy(r, -rho, &hat));
-            // ∂û/∂u = I + μ n ⊗ u_T/‖u_T‖; at rest the direction is free, and none is taken.
-            let lift = |j: usize| if j > 0 && slip > 0.0 { mu * u[j] / slip } else { 0.0 };
-            let by_u = std::array::from_fn(|i| std::array::from_fn(|j| -rho * (by_r[i][j] + by_r[i][0] * lift(j))));
+        if let Cone::Rolling { mu, mu_r } = cone {
+            let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.rolling(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        self.newton(w, cone, u, r)
+    }
+}
+
+impl Ebp {
+    /// The iteration for a contact with rolling, in variables of one unit; its own copy, so that the other is free of its cases.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn rolling<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        self.newton(w, cone, u, r)
+    }
+
+    /// The iteration itself.
+    #[inline(always)]
+    fn newton<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        let size = row_sum_norm(w);
+        if size < IMMOVABLE {
+            return separated(w, u, r);
+        }
+        let rho = self.rho.value(1.0 / size);
+        newton(w, u, r, move |r, u| {
+            let (value, by_r) = cone.project(&axpy(r, -rho, &cone.hat(u)));
+            // ∂û/∂u = I + n ⊗ lift, for Coulomb I + μ n ⊗ u_T/‖u_T‖.
+            let lift = cone.hat_gradient(u);
+            let by_u = std::array::from_fn(|i| std::array::from_fn(|j| -rho * (by_r[i][j] + by_r[i][0] * lift[j])));
             Image { value, by_r, by_u }
         })
     }

@@ -24,7 +24,7 @@ const ROUNDS: usize = 60;
 const HALVINGS: i32 = 5;
 
 /// Iterates from (u, r) to a fixed point of `map`.
-#[inline]
+#[inline(always)]
 pub(super) fn newton<const D: usize>(
     w: &Matrix<D>,
     u0: &Vector<D>,

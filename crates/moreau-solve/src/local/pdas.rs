@@ -12,11 +12,18 @@
 //! There the tangent is judged with the normal closed: u_T is taken after u_n has been brought to zero, and r_n is what closes
 //! the normal under τ_T. A sticking impulse outside the cone is no member of that set, and the contact slides.
 //!
+//! With rolling T and R are two such parts, each sticking or sliding on its own bound. They are coupled, as forces and moments of one body
+//! are, so the sets read from τ may contradict the pair enforced on them; they are then corrected a few times within the visit.
+//!
 //! One visit is one update of the sets. With the automatic γ and no tangential impulse to begin with it is exact in the plane, and in
 //! space where the tangential block is a multiple of the identity, as for balls; else sets and direction settle over the sweeps.
 
-use super::{LocalSolver, Visit, exact, free, separated};
-use crate::block::{Matrix, Vector, axpy, dot, solve_definite, sub, tangent_norm, tangent_row_sum_norm, velocity_after};
+use super::rolling::{Set, equilibrated};
+use super::{IMMOVABLE, LocalSolver, Visit, exact, free, moved, separated};
+use crate::block::{
+    Matrix, Vector, axpy, dot, norm, row_sum_norm, solve_definite, sub, tangent_norm, tangent_row_sum_norm, velocity_after,
+};
+use crate::cone::{part, part_norms};
 use crate::{Cone, Resolved};
 
 /// One update of the active sets a visit.
@@ -29,15 +36,20 @@ pub struct Pdas {
 impl LocalSolver for Pdas {
     const CLAIMS: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        if let Cone::Rolling { mu, mu_r } = cone {
+            let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.rolling(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
         if D > 1 && cone == Cone::Sticking {
             return exact::held(w, &free(w, u, r));
         }
         // The inverse does not wait for u: a sweep is bound by what one visit hands to the next.
         let inverse = 1.0 / w[0][0];
         let tau_n = r[0] - self.gamma.value(inverse) * u[0];
-        if tau_n < 0.0 {
+        // A normal that cannot move: no impulse closes it, and its inverse is no number.
+        if tau_n < 0.0 || w[0][0] < IMMOVABLE {
             return separated(w, u, r);
         }
         if D == 1 {
@@ -64,18 +76,79 @@ impl Pdas {
     #[inline]
     fn closed<const D: usize>(&self, w: &Matrix<D>, u: &Vector<D>, r: &Vector<D>) -> Vector<D> {
         let schur: Matrix<D> = std::array::from_fn(|i| std::array::from_fn(|j| w[i][j] - w[i][0] * w[0][j] / w[0][0]));
-        let gamma = self.gamma.value(1.0 / tangent_row_sum_norm(&schur));
+        let size = tangent_row_sum_norm(&schur);
+        // A tangent that cannot move has no γ of its own; the normal's lets its direction settle.
+        let gamma = self.gamma.value(1.0 / if size >= IMMOVABLE { size } else { w[0][0] });
         let mut tau: Vector<D> = std::array::from_fn(|i| r[i] - gamma * (u[i] - w[i][0] * u[0] / w[0][0]));
         let coupled: f64 = (1..D).map(|i| w[0][i] * (tau[i] - r[i])).sum();
         tau[0] = r[0] - (u[0] + coupled) / w[0][0];
         tau
     }
+
+    /// The update for a contact with rolling, in variables of one unit: T and R each stick or slide. The sets are corrected where the
+    /// enforced pair contradicts them; if they do not settle the visit is one projection.
+    fn rolling<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        let Cone::Rolling { mu, mu_r } = cone else { return separated(w, u, r) };
+        if w[0][0] < IMMOVABLE || r[0] - self.gamma.value(1.0 / w[0][0]) * u[0] < 0.0 {
+            return separated(w, u, r);
+        }
+        let (limits, tau, q) = ([mu, mu_r], self.closed(w, u, r), free(w, u, r));
+        let small = 1e-14 * (norm(&q) + norm(u));
+        let lengths = part_norms(&tau);
+        let mut set = Set { slides: [false; 2], along: [0.0; D], part: std::array::from_fn(part::<D>) };
+        for p in 0..2 {
+            set.slides[p] = lengths[p] > limits[p] * tau[0] || limits[p] == 0.0;
+            direct(&mut set, p, limits[p], &tau);
+        }
+        let mut slid = set.slides;
+        for round in 0..CORRECTIONS {
+            let Some(r_new) = set.enforce(w, &q, r).filter(|r| r[0] >= 0.0) else { break };
+            let u_new = set.velocity(w, &q, &r_new);
+            let mut settled = true;
+            for p in 0..2 {
+                // Both at once may go round in circles; one at a time, the later rounds.
+                if limits[p] == 0.0 || (round > 1 && !settled) {
+                    continue;
+                }
+                let pushed: f64 = (1..D).filter(|&i| part::<D>(i) == p).map(|i| set.along[i] * u_new[i]).sum();
+                if set.slides[p] && pushed > limits[p] * small {
+                    // Friction along the velocity is no friction.
+                    (set.slides[p], settled) = (false, false);
+                } else if !set.slides[p] && part_norms(&r_new)[p] > limits[p] * r_new[0] * (1.0 + 1e-14) {
+                    // Along τ as in any visit, so that the direction settles over the visits; if friction would drive there, along
+                    // the impulse that leaves the cone.
+                    direct(&mut set, p, limits[p], if slid[p] { &r_new } else { &tau });
+                    (set.slides[p], slid[p], settled) = (true, true, false);
+                }
+            }
+            if settled {
+                return Visit { r: r_new, u: u_new, converged: true };
+            }
+        }
+        let size = row_sum_norm(w);
+        moved(w, u, r, cone.nearest(&axpy(r, -1.0 / size, &cone.hat(u))))
+    }
 }
 
-/// u = 0, unless the block is singular.
+/// How often a visit corrects the sets of a rolling contact: there are nine of them in the plane.
+const CORRECTIONS: usize = 9;
+
+/// Makes part p of the set slide along that part of `r`, if it slides.
+fn direct<const D: usize>(set: &mut Set<D>, p: usize, limit: f64, r: &Vector<D>) {
+    let length = part_norms(r)[p];
+    for i in (1..D).filter(|&i| part::<D>(i) == p) {
+        set.along[i] = if length > 0.0 { limit * r[i] / length } else { 0.0 };
+    }
+}
+
+/// u = 0; `None` where a singular block does not allow it.
 #[inline]
 fn stick<const D: usize>(w: &Matrix<D>, u: &Vector<D>, r: &Vector<D>) -> Option<Visit<D>> {
-    solve_definite(w, u).map(|change| Visit { r: sub(r, &change), u: [0.0; D], converged: true })
+    let r = match solve_definite(w, u) {
+        Some(change) => sub(r, &change),
+        None => axpy(r, 1.0, &exact::at_rest(*w, *u)?),
+    };
+    Some(Visit { r, u: [0.0; D], converged: true })
 }
 
 /// r along `direction` = (1, μ s), u_n = 0.

@@ -9,7 +9,8 @@
 //! Reference: Alart & Curnier 1991. As for SBP the speed depends on ρ. The automatic values are 1/W_nn and 1/‖W_TT‖; a relative ρ
 //! multiplies both, an absolute one replaces both.
 
-use super::{LocalSolver, Visit, moved};
+use super::rolling::equilibrated;
+use super::{IMMOVABLE, LocalSolver, Visit, moved, separated};
 use crate::block::{Matrix, Vector, tangent_row_sum_norm};
 use crate::{Cone, Resolved};
 
@@ -20,22 +21,39 @@ pub struct Sal {
     pub rho: Resolved,
 }
 
-/// ρ for each component.
+/// ρ for each component; `None` where the contact's impulse moves nothing.
 #[inline]
-pub(super) fn steps<const D: usize>(rho: Resolved, w: &Matrix<D>) -> Vector<D> {
-    let normal = rho.value(1.0 / w[0][0]);
-    let tangent = if D > 1 { rho.value(1.0 / tangent_row_sum_norm(w)) } else { 0.0 };
-    std::array::from_fn(|i| if i == 0 { normal } else { tangent })
+pub(super) fn steps<const D: usize>(rho: Resolved, w: &Matrix<D>) -> Option<Vector<D>> {
+    let (size, tangent_size) = (w[0][0], if D > 1 { tangent_row_sum_norm(w) } else { 0.0 });
+    // A part that cannot move has no step of its own and takes the other's: its impulse still has to find its place in the cone.
+    let of = |size: f64, other: f64| if size >= IMMOVABLE { size } else { other };
+    let (normal, tangent) = (of(size, tangent_size), of(tangent_size, size));
+    if normal < IMMOVABLE {
+        return None;
+    }
+    let (normal, tangent) = (rho.value(1.0 / normal), rho.value(1.0 / tangent));
+    Some(std::array::from_fn(|i| if i == 0 { normal } else { tangent }))
 }
 
 impl LocalSolver for Sal {
     const CLAIMS: bool = false;
 
-    #[inline]
+    #[inline(always)]
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
-        let rho = steps(self.rho, w);
+        if let Cone::Rolling { mu, mu_r } = cone {
+            let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.step(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        self.step(w, cone, u, r)
+    }
+}
+
+impl Sal {
+    #[inline(always)]
+    fn step<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        let Some(rho) = steps(self.rho, w) else { return separated(w, u, r) };
         let tau = std::array::from_fn(|i| r[i] - rho[i] * u[i]);
-        let (image, _) = cone.project_cylinder(&tau);
+        let image = cone.nearest_in_cylinder(&tau);
         moved(w, u, r, image)
     }
 }

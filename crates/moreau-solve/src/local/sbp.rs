@@ -10,8 +10,9 @@
 //! visit without friction leaves the part 1 − ρ W_nn of the error. With the automatic ρ = 1/‖W‖ (row sums) it is then exact in one
 //! visit. Not to be used where W_nn varies much between contacts with one absolute ρ: some contacts crawl, others diverge.
 
-use super::{LocalSolver, Visit, moved};
-use crate::block::{Matrix, Vector, axpy, row_sum_norm, tangent_norm};
+use super::rolling::equilibrated;
+use super::{IMMOVABLE, LocalSolver, Visit, moved, separated};
+use crate::block::{Matrix, Vector, axpy, row_sum_norm};
 use crate::{Cone, Resolved};
 
 /// One projection a visit on Coulomb's cone.
@@ -24,12 +25,25 @@ pub struct Sbp {
 impl LocalSolver for Sbp {
     const CLAIMS: bool = false;
 
-    #[inline]
+    #[inline(always)]
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
-        let rho = self.rho.value(1.0 / row_sum_norm(w));
-        let mut hat = *u;
-        hat[0] += cone.friction() * tangent_norm(u);
-        let (image, _) = cone.project(&axpy(r, -rho, &hat));
+        if let Cone::Rolling { mu, mu_r } = cone {
+            let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.step(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        self.step(w, cone, u, r)
+    }
+}
+
+impl Sbp {
+    #[inline(always)]
+    fn step<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
+        let size = row_sum_norm(w);
+        if size < IMMOVABLE {
+            return separated(w, u, r);
+        }
+        let rho = self.rho.value(1.0 / size);
+        let image = cone.nearest(&axpy(r, -rho, &cone.hat(u)));
         moved(w, u, r, image)
     }
 }

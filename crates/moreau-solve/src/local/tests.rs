@@ -1,5 +1,8 @@
 //! Conformance: every row of the table of local solvers, in every dimension, with every law, against the exact reference.
 
+mod built;
+mod degenerate;
+
 use super::*;
 use crate::block::{dot, mul, norm, tangent_norm};
 use crate::{Criterion, Delassus, Parameter, Problem, Status, solve};
@@ -76,9 +79,11 @@ proptest! {
         let wr = mul(&w, &r);
         let u: Vector<3> = std::array::from_fn(|i| q[i] + wr[i]);
         let slip = tangent_norm(&u);
-        prop_assert!(u[0] > -1e-12 && r[0] >= 0.0 && (u[0] * r[0]).abs() < 1e-12);
-        prop_assert!(tangent_norm(&r) <= mu * r[0] + 1e-12);
-        prop_assert!((dot(&u, &r) + mu * r[0] * slip).abs() < 1e-10, "maximal dissipation");
+        // Strong coupling may ask for a large impulse, and W r rounds with it.
+        let size = 1.0 + norm(&r);
+        prop_assert!(u[0] > -1e-12 * size && r[0] >= 0.0 && (u[0] * r[0]).abs() < 1e-12 * size * size);
+        prop_assert!(tangent_norm(&r) <= mu * r[0] + 1e-12 * size);
+        prop_assert!((dot(&u, &r) + mu * r[0] * slip).abs() < 1e-10 * size * size, "maximal dissipation");
     }
 
     /// A diagonal block, as balls and disks have: PDAS ends in one visit, EBP and EAL too.

@@ -1,7 +1,8 @@
 //! W through the bodies: never formed, one contact touches two bodies.
 
-use super::Operator;
+use super::{Delassus, Operator};
 use crate::block::{Matrix, Vector};
+use std::borrow::Cow;
 
 /// In place of a body that impulses do not move.
 pub const NONE: u32 = u32::MAX;
@@ -51,6 +52,24 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
     /// Whether it has none.
     pub fn is_empty(&self) -> bool {
         self.contacts.is_empty()
+    }
+
+    /// The contacts of each body, in order.
+    pub(super) fn contacts_of_bodies(&self) -> Vec<Vec<u32>> {
+        let mut of = vec![Vec::new(); self.bodies];
+        for (c, contact) in (0..).zip(&self.contacts) {
+            let [a, b] = contact.pair;
+            let twice = if a == b { NONE } else { b };
+            for body in [a, twice].into_iter().filter(|&body| body != NONE) {
+                of[body as usize].push(c);
+            }
+        }
+        of
+    }
+
+    /// The bodies of a contact, [`NONE`] in place of one that impulses do not move.
+    pub(super) fn pair(&self, c: usize) -> [u32; 2] {
+        self.contacts[c].pair
     }
 
     /// The block W_cd, for those who want it stored.
@@ -127,6 +146,14 @@ impl<const D: usize, const N: usize> Operator<D> for MatrixFree<D, N> {
     fn apply(&self, state: &Self::State, c: usize) -> Vector<D> {
         let Contact { pair, rows, .. } = &self.contacts[c];
         relative(rows, &[read(state, pair[0]), read(state, pair[1])])
+    }
+
+    fn extrapolate(&self, state: &mut Self::State, previous: &Self::State, beta: f64) {
+        super::extrapolate(state, previous, beta);
+    }
+
+    fn stored(&self) -> Cow<'_, Delassus<D>> {
+        Cow::Owned(Delassus::assemble(self))
     }
 
     /// Greedy: each contact, in its number's order, takes the first colour that neither of its bodies has; sorted by colour, then

@@ -51,21 +51,39 @@ pub struct Solver {
     pub rho: Parameter,
     /// γ of pdas: "auto", { relative = factor } or { absolute = kg }.
     pub gamma: Parameter,
+    /// Over-relaxation ω of Gauss-Seidel sweeps, between 0 and 2, both excluded; 1 is none.
+    pub relaxation: f64,
+    /// Whether every second sweep of nlgs goes backwards.
+    pub symmetric: bool,
 }
 
 impl Default for Solver {
     fn default() -> Self {
-        let Settings { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, history: _ } = Settings::default();
+        let Settings { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, relaxation, symmetric, .. } =
+            Settings::default();
         let (start, on_failure) = (Start::default(), OnFailure::default());
-        Self { global, local, criterion, tolerance, max_sweeps, start, order, on_failure, rho, gamma }
+        Self { global, local, criterion, tolerance, max_sweeps, start, order, on_failure, rho, gamma, relaxation, symmetric }
     }
 }
 
 impl Solver {
     /// The settings of the contact solver.
     pub fn settings(&self) -> Settings {
-        let Self { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, .. } = *self;
-        Settings { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, history: false }
+        let Self { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, relaxation, symmetric, .. } = *self;
+        let given = Settings {
+            global,
+            local,
+            criterion,
+            tolerance,
+            max_sweeps,
+            order,
+            rho,
+            gamma,
+            relaxation,
+            symmetric,
+            ..Settings::default()
+        };
+        Settings { history: false, max_seconds: None, ..given }
     }
 }
 

@@ -79,7 +79,7 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
                 advance(world, work, record, 0.5 * h, depth + 1)?;
                 return advance(world, work, record, 0.5 * h, depth + 1);
             }
-            OnFailure::Warn if report.status == Status::MaxSweeps => {}
+            OnFailure::Warn if report.status != Status::NotFinite => {}
             _ => return Err(unconverged(world.time + h, &report)),
         }
     }

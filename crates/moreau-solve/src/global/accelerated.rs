@@ -1,0 +1,150 @@
+//! Accelerated NLGS: a Gauss-Seidel sweep as the step of Nesterov's iteration, with Anderson's mixing where that sees further.
+//!
+//! ```text
+//! repeat until the criterion is met:
+//!   z⁺ = one sweep of NLGS from y                               f = z⁺ − y, what the sweep changed
+//!   if mixing the last five changes would leave less than 0.2 ‖f‖ of f:      y = P_K(z⁺ − Σ γ_j Δz_j)     (Anderson)
+//!   else if f points against the way just gone, f·(z⁺ − z) < 0.2 ‖f‖ ‖z⁺ − z‖:   y = z⁺, shorter momentum    (restart)
+//!   else                                                        y = z⁺ + β (z⁺ − z), longer momentum     (Nesterov)
+//!   z = z⁺
+//! ```
+//!
+//! in the norm of the diagonal of W, with β = t/(t + 1/2), t growing by one a sweep and cut to 0.6 t by a restart. Nesterov's part carries
+//! news along chains of contacts in a number of sweeps that grows with their length, not with its square; Anderson's part ends small problems in a few sweeps.
+//! The momentum costs one pass over bodies and impulses: W (z + β Δz) is what the operator's state already has, extrapolated.
+//!
+//! Safeguard: where the criterion has not fallen below its best value for some sweeps, twice as many plain ones follow from the best impulses, and the patience
+//! doubles. Where acceleration fails altogether two thirds of all sweeps are thus plain ones that go on from each other.
+//!
+//! References: Nesterov 1983; O'Donoghue & Candès 2015 (restarts); Anderson 1965, Walker & Ni 2011 (mixing). With friction the
+//! problem is not convex and nothing is proved: the criterion decides.
+
+use super::Work;
+use super::mixing::Mixing;
+use super::sweep::{sweep, visit};
+use crate::block::{Vector, axpy, sub};
+use crate::local::LocalSolver;
+use crate::{Operator, Status};
+
+/// For how many sweeps without a gain acceleration may go on at first.
+const FIRST_PATIENCE: u64 = 64;
+/// β = t/(t + OFFSET).
+const OFFSET: f64 = 0.5;
+/// What a restart leaves of t.
+const SHORTENED: f64 = 0.6;
+/// The cosine of the angle to the way just gone below which a change of the impulses counts as against it.
+const AGAINST: f64 = 0.2;
+
+/// Phases until the judge says stop.
+pub(super) fn run<O: Operator<D>, L: LocalSolver, const D: usize>(work: &mut Work<'_, O, D>, local: L) -> Status {
+    work.begin::<L>();
+    keep(&mut work.scratch.best, work.r);
+    let (mut best, mut patience) = (f64::INFINITY, FIRST_PATIENCE);
+    loop {
+        if let Some(status) = accelerate(work, local, patience, &mut best) {
+            return status;
+        }
+        work.r.copy_from_slice(&work.scratch.best);
+        work.problem.operator.start(work.r, &mut work.scratch.state);
+        for _ in 0..2 * patience {
+            sweep(work, local, false);
+            if let Some(status) = work.after_sweep() {
+                return status;
+            }
+        }
+        best = work.judge.error;
+        keep(&mut work.scratch.best, work.r);
+        patience *= 2;
+    }
+}
+
+/// Accelerated sweeps from the impulses of now, until the judge says stop or `patience` of them, and a third of all, have gone by without a
+/// gain; `best` is the least criterion so far, and the scratch has its impulses.
+fn accelerate<O: Operator<D>, L: LocalSolver, const D: usize>(
+    work: &mut Work<'_, O, D>,
+    local: L,
+    patience: u64,
+    best: &mut f64,
+) -> Option<Status> {
+    let mut mixing = std::mem::take(&mut work.scratch.mixing);
+    mixing.begin(work.problem);
+    let Work { r, scratch, .. } = work;
+    keep(&mut scratch.previous, r);
+    keep(&mut scratch.from, r);
+    scratch.earlier.clone_from(&scratch.state);
+    let (mut t, mut gained_at): (f64, _) = (1.0, work.judge.sweeps);
+    let end = loop {
+        sweep_from(work, local);
+        if let Some(status) = work.after_sweep() {
+            break Some(status);
+        }
+        if work.judge.measured_at == work.judge.sweeps {
+            if work.judge.error < *best {
+                (*best, gained_at) = (work.judge.error, work.judge.sweeps);
+                keep(&mut work.scratch.best, work.r);
+            } else if work.judge.sweeps - gained_at >= patience.max(work.judge.sweeps / 3) {
+                break None;
+            }
+        }
+        extrapolate(work, &mut mixing, &mut t);
+    };
+    work.scratch.mixing = mixing;
+    end
+}
+
+/// Chooses the point y from which the next sweep starts.
+fn extrapolate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, mixing: &mut Mixing, t: &mut f64) {
+    let Work { problem, r, scratch, .. } = work;
+    let way = mixing.push(r.as_flattened(), scratch.from.as_flattened(), scratch.previous.as_flattened());
+    scratch.previous.copy_from_slice(r);
+    let now = &mut scratch.spare;
+    now.clone_from(&scratch.state);
+    if mixing.propose(scratch.from.as_flattened_mut(), r.as_flattened()) {
+        for (y, cone) in scratch.from.iter_mut().zip(problem.cones) {
+            *y = cone.nearest(y);
+        }
+        problem.operator.start(&scratch.from, &mut scratch.state);
+        *t = 1.0;
+    } else if way.change_along_way < AGAINST * way.change * way.length {
+        scratch.from.copy_from_slice(r);
+        *t = (SHORTENED * *t).max(1.0);
+    } else {
+        let beta = *t / (*t + OFFSET);
+        *t += 1.0;
+        mixing.ahead(scratch.from.as_flattened_mut(), r.as_flattened(), beta);
+        problem.operator.extrapolate(&mut scratch.state, &scratch.earlier, beta);
+    }
+    std::mem::swap(&mut scratch.earlier, now);
+}
+
+/// A sweep that starts from the impulses `from` of the scratch, for which its state stands, and leaves its result in the impulses.
+fn sweep_from<O: Operator<D>, L: LocalSolver, const D: usize>(work: &mut Work<'_, O, D>, local: L) {
+    let Work { problem, r, scratch, judge, .. } = work;
+    let (state, order) = (&mut scratch.state, &scratch.order);
+    let n = order.len();
+    let (q, cones, from, r) = (&problem.q[..n], &problem.cones[..n], &scratch.from[..n], &mut r[..n]);
+    let claimed = if L::CLAIMS { &mut scratch.claimed[..n] } else { &mut [] };
+    let mut unfinished = 0;
+    for &c in order {
+        let c = c as usize;
+        if c >= n {
+            continue;
+        }
+        problem.operator.relax(state, c, |w, wr| {
+            let visit = visit(local, w, cones[c], &axpy(&q[c], 1.0, &wr), &from[c]);
+            r[c] = visit.r;
+            if L::CLAIMS {
+                claimed[c] = visit.u;
+            }
+            unfinished += u64::from(!visit.converged);
+            sub(&visit.r, &from[c])
+        });
+    }
+    judge.unfinished_visits = unfinished;
+}
+
+/// kept ← r.
+fn keep<const D: usize>(kept: &mut Vec<Vector<D>>, r: &[Vector<D>]) {
+    kept.clear();
+    kept.extend_from_slice(r);
+}

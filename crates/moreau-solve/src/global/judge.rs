@@ -1,0 +1,95 @@
+//! When a solve ends: it is measured here, by [`crate::residual`], and the method that runs only asks whether to go on.
+
+use crate::block::Vector;
+use crate::report::{HistoryRow, Status};
+use crate::residual::{criterion, measure};
+use crate::{Operator, Problem, Settings};
+use std::time::{Duration, Instant};
+
+/// Watches one solve.
+pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
+    problem: &'a Problem<'a, O, D>,
+    settings: &'a Settings,
+    deadline: Option<Instant>,
+    /// Sweeps or steps done so far, by all methods of this solve.
+    pub sweeps: u64,
+    /// The number of sweeps at which the method at work has to hand over.
+    pub limit: u64,
+    /// The criterion when it was last measured, and after how many sweeps that was.
+    pub error: f64,
+    pub measured_at: u64,
+    pub history: Vec<HistoryRow>,
+    /// Visits of the last sweep in which the local solver did not reach its own end.
+    pub unfinished_visits: u64,
+    next_check: u64,
+}
+
+impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
+    pub(crate) fn new(problem: &'a Problem<'a, O, D>, settings: &'a Settings) -> Self {
+        // A limit beyond what a clock can hold is none.
+        let deadline = settings.max_seconds.and_then(|s| Instant::now().checked_add(Duration::try_from_secs_f64(s).ok()?));
+        let (sweeps, limit) = (0, settings.max_sweeps);
+        Self {
+            problem,
+            settings,
+            deadline,
+            sweeps,
+            limit,
+            error: f64::INFINITY,
+            measured_at: 0,
+            history: Vec::new(),
+            unfinished_visits: 0,
+            next_check: 1,
+        }
+    }
+
+    /// After a sweep that left the impulses `r`, for which `state` stands: how the method ends, if it does.
+    ///
+    /// Every one of the first twenty sweeps is measured and then every sixteenth part of those done, as a measure costs what a sweep costs.
+    pub(crate) fn after_sweep(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
+        self.sweeps += 1;
+        let last = self.sweeps >= self.limit;
+        if !(self.settings.history || self.sweeps >= self.next_check || last) {
+            return None;
+        }
+        self.next_check = self.sweeps + if self.sweeps < 20 { 1 } else { self.sweeps / 16 };
+        self.measured(state, r, claimed)
+    }
+
+    /// The same after a step that is worth measuring each time.
+    pub(crate) fn after_step(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
+        self.sweeps += 1;
+        self.measured(state, r, claimed)
+    }
+
+    fn measured(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
+        if self.settings.history {
+            let residual = measure(self.problem, state, r, claimed);
+            self.history.push(HistoryRow { sweep: self.sweeps, residual });
+        }
+        self.error = self.weigh(state, r, claimed);
+        self.measured_at = self.sweeps;
+        if !self.error.is_finite() {
+            return Some(Status::NotFinite);
+        }
+        if self.error <= self.settings.tolerance && self.confirmed(state, r, claimed) {
+            return Some(Status::Converged);
+        }
+        if self.sweeps >= self.limit {
+            return Some(Status::MaxSweeps);
+        }
+        self.deadline.filter(|&deadline| Instant::now() >= deadline).map(|_| Status::OutOfTime)
+    }
+
+    /// The criterion at `r`, for which `state` stands.
+    pub(crate) fn weigh(&self, state: &O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> f64 {
+        criterion(self.problem, state, r, claimed, self.settings.criterion)
+    }
+
+    /// A state has gathered the rounding of every visit: the verdict is on the impulses alone.
+    fn confirmed(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> bool {
+        self.problem.operator.start(r, state);
+        self.error = self.weigh(state, r, claimed);
+        self.error <= self.settings.tolerance
+    }
+}
