@@ -1,6 +1,8 @@
 //! Global solvers: all contacts together.
 
 mod accelerated;
+mod active_set;
+mod auto;
 pub(crate) mod judge;
 mod mixing;
 mod nlgs;
@@ -26,12 +28,21 @@ pub enum GlobalMethod {
     Nlgs,
     /// Nonlinear Gauss-Seidel with momentum.
     Accelerated,
+    /// Global primal-dual active set.
+    ActiveSet,
+    /// Whatever the problem asks for.
+    Auto,
 }
 
 /// The table of global solvers.
 pub const GLOBAL_METHODS: &[(GlobalMethod, Row)] = &[
     (GlobalMethod::Nlgs, Row { name: "nlgs", about: "nonlinear Gauss-Seidel: contact by contact until all agree" }),
     (GlobalMethod::Accelerated, Row { name: "accelerated", about: "NLGS with Nesterov's momentum, restarts and a safeguard" }),
+    (
+        GlobalMethod::ActiveSet,
+        Row { name: "active_set", about: "Newton on all contacts at once, after sweeps: for tight tolerances" },
+    ),
+    (GlobalMethod::Auto, Row { name: "auto", about: "accelerated, then active_set where that is not enough; says what it did" }),
 ];
 
 impl GlobalMethod {
@@ -72,18 +83,23 @@ impl<State, const D: usize> Scratch<State, D> {
 /// A solve at work: what every global method reads and writes.
 pub(crate) struct Work<'a, O: Operator<D>, const D: usize> {
     pub problem: &'a Problem<'a, O, D>,
-    pub settings: &'a Settings,
+    pub settings: Settings,
     /// The impulses: the first guess, and then the answer.
     pub r: &'a mut [Vector<D>],
     pub scratch: &'a mut Scratch<O::State, D>,
     pub judge: Judge<'a, O, D>,
+    /// What was done before the method that now runs.
+    pub stages: Vec<Stage>,
 }
 
 impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
     /// Runs one method from the impulses of now.
     fn run(&mut self, method: GlobalMethod) -> Status {
         match method {
-            GlobalMethod::Nlgs | GlobalMethod::Accelerated => with_local(self.settings, Sweeping { work: self, method }),
+            GlobalMethod::Auto => auto::run(self),
+            GlobalMethod::Nlgs | GlobalMethod::Accelerated | GlobalMethod::ActiveSet => {
+                with_local(self.settings, Sweeping { work: self, method })
+            }
         }
     }
 
@@ -97,7 +113,6 @@ impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
     }
 
     /// Asks the judge after a step of a method that claims no velocities; `state` of the scratch must stand for the impulses.
-    #[expect(dead_code, reason = "for methods of steps")]
     fn after_step(&mut self) -> Option<Status> {
         self.judge.after_step(&mut self.scratch.state, self.r, None)
     }
@@ -107,6 +122,12 @@ impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
         let claimed = claims(&self.scratch.claimed);
         self.judge.after_sweep(&mut self.scratch.state, self.r, claimed)
     }
+}
+
+/// kept ← r.
+fn keep<const D: usize>(kept: &mut Vec<Vector<D>>, r: &[Vector<D>]) {
+    kept.clear();
+    kept.extend_from_slice(r);
 }
 
 /// The claimed velocities, of methods that claim any.
@@ -126,6 +147,7 @@ impl<O: Operator<D>, const D: usize> WithLocal for Sweeping<'_, '_, O, D> {
     fn run<L: LocalSolver>(self, local: L) -> Status {
         match self.method {
             GlobalMethod::Accelerated => accelerated::run(self.work, local),
+            GlobalMethod::ActiveSet => active_set::run(self.work, local),
             _ => nlgs::run(self.work, local),
         }
     }
@@ -141,18 +163,13 @@ pub fn solve<O: Operator<D>, const D: usize>(
     scratch: &mut Scratch<O::State, D>,
 ) -> Report {
     scratch.claimed.clear();
-    let mut work = Work { problem, settings, r, scratch, judge: Judge::new(problem, settings) };
+    let mut work = Work { problem, settings: *settings, r, scratch, judge: Judge::new(problem, settings), stages: Vec::new() };
     let status = if problem.is_empty() { Status::Converged } else { work.run(settings.global) };
-    let Work { r, scratch, judge, .. } = work;
+    let Work { r, scratch, judge, mut stages, .. } = work;
     problem.operator.start(r, &mut scratch.state);
     let residual = measure(problem, &scratch.state, r, claims(&scratch.claimed));
-    let stage = Stage { method: settings.global, sweeps: judge.sweeps, error: residual.of(settings.criterion), status };
-    Report {
-        status,
-        sweeps: judge.sweeps,
-        stages: vec![stage],
-        residual,
-        unfinished_visits: judge.unfinished_visits,
-        history: judge.history,
+    if stages.is_empty() {
+        stages.push(Stage { method: settings.global, sweeps: judge.sweeps, error: residual.of(settings.criterion), status });
     }
+    Report { status, sweeps: judge.sweeps, stages, residual, unfinished_visits: judge.unfinished_visits, history: judge.history }
 }

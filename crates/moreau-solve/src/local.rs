@@ -103,7 +103,7 @@ pub trait WithLocal {
 }
 
 /// Runs `task` with the local solver that `settings` name.
-pub fn with_local<T: WithLocal>(settings: &Settings, task: T) -> T::Output {
+pub fn with_local<T: WithLocal>(settings: Settings, task: T) -> T::Output {
     match settings.local {
         LocalMethod::Sbp => task.run(Sbp { rho: settings.rho.resolve() }),
         LocalMethod::Sal => task.run(Sal { rho: settings.rho.resolve() }),

@@ -19,10 +19,10 @@
 //! References: Nesterov 1983; O'Donoghue & Candès 2015 (restarts); Anderson 1965, Walker & Ni 2011 (mixing). With friction the
 //! problem is not convex and nothing is proved: the criterion decides.
 
-use super::Work;
 use super::mixing::Mixing;
 use super::sweep::{sweep, visit};
-use crate::block::{Vector, axpy, sub};
+use super::{Work, keep};
+use crate::block::{axpy, sub};
 use crate::local::LocalSolver;
 use crate::{Operator, Status};
 
@@ -141,10 +141,4 @@ fn sweep_from<O: Operator<D>, L: LocalSolver, const D: usize>(work: &mut Work<'_
         });
     }
     judge.unfinished_visits = unfinished;
-}
-
-/// kept ← r.
-fn keep<const D: usize>(kept: &mut Vec<Vector<D>>, r: &[Vector<D>]) {
-    kept.clear();
-    kept.extend_from_slice(r);
 }

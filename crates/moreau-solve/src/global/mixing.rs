@@ -65,25 +65,19 @@ impl Mixing {
 
     /// Takes in a sweep from `y` to `z`, after one that had ended at `previous`.
     pub(super) fn push(&mut self, z: &[f64], y: &[f64], previous: &[f64]) -> Way {
-        let slot = self.next;
-        let (f_step, z_step) = (&mut self.f_steps[slot][..], &mut self.z_steps[slot][..]);
-        let n = self.f.len();
-        let (mut change, mut length, mut inner) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        let (slot, n) = (self.next, self.f.len());
         let (z, y, previous, w, f) = (&z[..n], &y[..n], &previous[..n], &self.weights[..n], &mut self.f[..n]);
-        let (f_step, z_step) = (&mut f_step[..n], &mut z_step[..n]);
+        let (f_step, z_step) = (&mut self.f_steps[slot][..n], &mut self.z_steps[slot][..n]);
         for i in 0..n {
-            let (moved, changed) = (z[i] - previous[i], w[i] * (z[i] - y[i]));
-            z_step[i] = moved;
+            let changed = w[i] * (z[i] - y[i]);
+            z_step[i] = z[i] - previous[i];
             f_step[i] = changed - f[i];
             f[i] = changed;
-            let moved = w[i] * moved;
-            change[i % 4] += changed * changed;
-            length[i % 4] += moved * moved;
-            inner[i % 4] += changed * moved;
         }
-        let total = |lanes: [f64; 4]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-        self.change = total(change);
-        let way = Way { change: self.change.sqrt(), length: total(length).sqrt(), change_along_way: total(inner) };
+        let products = |i: usize| [f[i] * f[i], (w[i] * z_step[i]) * (w[i] * z_step[i]), f[i] * (w[i] * z_step[i])];
+        let [change, length, inner] = sums(n, products);
+        self.change = change;
+        let way = Way { change: change.sqrt(), length: length.sqrt(), change_along_way: inner };
         // The first difference is against nothing.
         if self.active && !std::mem::take(&mut self.fresh) {
             self.learn(slot);
@@ -133,14 +127,30 @@ impl Mixing {
     }
 }
 
-/// a · b in four lanes.
+/// a · b.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; 4];
-    for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
-        for k in 0..4 {
-            lanes[k] += a[k] * b[k];
+    let b = &b[..a.len()];
+    sums(a.len(), |i| [a[i] * b[i]])[0]
+}
+
+/// Σ_i terms(i) for i < n, in four lanes: one addition need not wait for the last.
+#[inline(always)]
+fn sums<const K: usize>(n: usize, terms: impl Fn(usize) -> [f64; K]) -> [f64; K] {
+    let mut lanes = [[0.0; 4]; K];
+    let whole = n / 4 * 4;
+    for i in (0..whole).step_by(4) {
+        for lane in 0..4 {
+            let terms = terms(i + lane);
+            for k in 0..K {
+                lanes[k][lane] += terms[k];
+            }
         }
     }
-    let rest: f64 = a.chunks_exact(4).remainder().iter().zip(b.chunks_exact(4).remainder()).map(|(a, b)| a * b).sum();
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + rest
+    for i in whole..n {
+        let terms = terms(i);
+        for k in 0..K {
+            lanes[k][i - whole] += terms[k];
+        }
+    }
+    lanes.map(|lane| (lane[0] + lane[1]) + (lane[2] + lane[3]))
 }

@@ -7,7 +7,7 @@ use crate::{Cone, Operator};
 
 /// One visit to every contact, in the order of the scratch or against it.
 pub(super) fn sweep<O: Operator<D>, L: LocalSolver, const D: usize>(work: &mut Work<'_, O, D>, local: L, backwards: bool) {
-    let Work { problem, settings, r, scratch, judge } = work;
+    let Work { problem, settings, r, scratch, judge, .. } = work;
     let (state, order) = (&mut scratch.state, &scratch.order);
     let n = order.len();
     // One length for all, and one look at the index: the compiler then drops a check for each array.

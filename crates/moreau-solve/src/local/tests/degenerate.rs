@@ -47,7 +47,7 @@ pub(super) fn one_visit<const D: usize>(
     u: &Vector<D>,
     r: &Vector<D>,
 ) -> Visit<D> {
-    with_local(&Settings { local: method, ..Settings::default() }, One(w, cone, u, r))
+    with_local(Settings { local: method, ..Settings::default() }, One(w, cone, u, r))
 }
 
 /// The cases of one dimension: what moves (by component), and the velocities without impulse.
