@@ -16,6 +16,7 @@
 //! with P_K the projection on the cone of impulses: e_c is a velocity, zero exactly at a solution, and the velocities without and with
 //! impulses (of which only the normal part counts where there is no friction) are what it is compared with. Velocities here are those of the normal form, with
 //! the shift added; with restitution they are 1 + e times the formal ones of eq. 21, so with one coefficient e ε_glob is never smaller than the paper's.
+//! Of a rolling contact, spins and moments are first turned into velocities and impulses by an arm (theory (52)), for the same reason.
 //!
 //! The residual that Siconos reports takes 1 in the place of w_c, and so depends on the units:
 //!
@@ -23,7 +24,7 @@
 //! siconos = √(Σ ‖r − P_K(r − û)‖²) / max(‖q‖, ‖r‖, ‖u‖)
 //! ```
 
-use crate::block::{Vector, axpy, dot, norm, sub, tangent_norm};
+use crate::block::{Matrix, Vector, axpy, dot, norm, sub, tangent_norm};
 use crate::{Cone, Criterion, Operator, Problem};
 
 /// The three parts of ε_glob, each a mean over the contacts.
@@ -117,12 +118,7 @@ fn natural<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D>) -> 
         return (w * (r[0] - (r[0] - u[0] / w).max(0.0))).abs();
     }
     let hat = cone.hat(&seen(cone, u));
-    if w > 0.0 {
-        let (image, _) = cone.project(&axpy(r, -1.0 / w, &hat));
-        w * norm(&sub(r, &image))
-    } else {
-        norm(&cone.project(&hat.map(|x| -x)).0)
-    }
+    if w > 0.0 { w * norm(&sub(r, &cone.nearest(&axpy(r, -1.0 / w, &hat)))) } else { norm(&cone.nearest(&hat.map(|x| -x))) }
 }
 
 /// All measures at the impulses `r` for which `state` stands; `claimed` are the velocities that local solvers gave, if they do.
@@ -135,25 +131,26 @@ pub fn measure<O: Operator<D>, const D: usize>(
     let (mut motion, mut outside, mut power, mut speeds) = (0.0, 0.0, 0.0, 0.0);
     let mut worst: Option<Worst> = None;
     for c in 0..problem.len() {
-        let (cone, q, u) = (problem.cones[c], &problem.q[c], problem.velocity(state, c));
-        let (w, hat) = (mean_diagonal(problem, c), cone.hat(&seen(cone, &u)));
-        speeds += squared(&seen(cone, q)) + squared(&seen(cone, &u));
-        motion += claimed.map_or(0.0, |claimed| squared(&seen(cone, &sub(&claimed[c], &u))));
-        let beyond = w * norm(&sub(&r[c], &cone.project(&r[c]).0)) + norm(&cone.project(&hat.map(|x| -x)).0);
+        let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &problem.velocity(state, c), &r[c]);
+        let hat = cone.hat(&u);
+        speeds += squared(&q) + squared(&u);
+        motion += claimed.map_or(0.0, |claimed| squared(&sub(&in_one_unit(problem, c, &claimed[c], &r).u, &u)));
+        let beyond = w * cone.distance(&r) + norm(&cone.nearest(&hat.map(|x| -x)));
         outside += beyond * beyond;
-        let sizes = w * norm(&r[c]) + norm(&hat);
-        let normalised = if sizes > 0.0 { w * dot(&hat, &r[c]) / sizes } else { 0.0 };
+        let sizes = w * norm(&r) + norm(&hat);
+        let normalised = if sizes > 0.0 { w * dot(&hat, &r) / sizes } else { 0.0 };
         power += normalised * normalised;
-        let error = natural(cone, w, &u, &r[c]);
+        let error = natural(cone, w, &u, &r);
         // Also where it is no number, which no comparison would find.
         if worst.is_none_or(|worst| !worst.error.is_nan() && (error.is_nan() || error > worst.error)) {
             worst = Some(Worst { contact: c, error });
         }
     }
+    let (scaled, siconos) = naturals::<O, D, true, true>(problem, state, r);
     Residual {
         eps_glob: mean_eps_glob(problem, state, r, claimed),
-        scaled: scaled(problem, state, r),
-        siconos: siconos(problem, state, r),
+        scaled,
+        siconos,
         motion: ratio(motion, speeds),
         cone: ratio(outside, speeds),
         complementarity: ratio(power, speeds),
@@ -171,9 +168,12 @@ pub fn criterion<O: Operator<D>, const D: usize>(
 ) -> f64 {
     match which {
         Criterion::EpsGlob => mean_eps_glob(problem, state, r, claimed).total(),
-        Criterion::Scaled => scaled(problem, state, r),
-        Criterion::Siconos => siconos(problem, state, r),
-        Criterion::Strict => larger(scaled(problem, state, r), siconos(problem, state, r)),
+        Criterion::Scaled => naturals::<O, D, true, false>(problem, state, r).0,
+        Criterion::Siconos => naturals::<O, D, false, true>(problem, state, r).1,
+        Criterion::Strict => {
+            let (scaled, siconos) = naturals::<O, D, true, true>(problem, state, r);
+            larger(scaled, siconos)
+        }
     }
 }
 
@@ -196,30 +196,32 @@ fn mean_eps_glob<O: Operator<D>, const D: usize>(
     EpsGlob { motion: sum.motion * mean, bipotential: sum.bipotential * mean, penetration: sum.penetration * mean }
 }
 
-/// The scaled residual.
-fn scaled<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, state: &O::State, r: &[Vector<D>]) -> f64 {
+/// The scaled residual and that of Siconos, those that are asked for.
+fn naturals<O: Operator<D>, const D: usize, const SCALED: bool, const SICONOS: bool>(
+    problem: &Problem<'_, O, D>,
+    state: &O::State,
+    r: &[Vector<D>],
+) -> (f64, f64) {
     let (mut errors, mut speeds) = (0.0, 0.0);
+    let (mut plain_errors, mut qq, mut rr, mut uu) = (0.0, 0.0, 0.0, 0.0);
     for c in 0..problem.len() {
-        let (cone, q, u) = (problem.cones[c], &problem.q[c], problem.velocity(state, c));
-        let error = natural(cone, mean_diagonal(problem, c), &u, &r[c]);
-        errors += error * error;
-        speeds += if cone == Cone::Signorini { q[0] * q[0] + u[0] * u[0] } else { dot(q, q) + dot(&u, &u) };
+        let velocity = problem.velocity(state, c);
+        if SCALED {
+            let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
+            let error = natural(cone, w, &u, &r);
+            errors += error * error;
+            speeds += squared(&q) + squared(&u);
+        }
+        if SICONOS {
+            let cone = problem.cones[c];
+            let error = natural(cone, 1.0, &velocity, &r[c]);
+            plain_errors += error * error;
+            qq += squared(&seen(cone, &problem.q[c]));
+            rr += squared(&r[c]);
+            uu += squared(&seen(cone, &velocity));
+        }
     }
-    ratio(errors, speeds)
-}
-
-/// The residual that Siconos reports.
-fn siconos<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, state: &O::State, r: &[Vector<D>]) -> f64 {
-    let (mut errors, mut qq, mut rr, mut uu) = (0.0, 0.0, 0.0, 0.0);
-    for c in 0..problem.len() {
-        let (cone, u) = (problem.cones[c], problem.velocity(state, c));
-        let error = natural(cone, 1.0, &u, &r[c]);
-        errors += error * error;
-        qq += squared(&seen(cone, &problem.q[c]));
-        rr += squared(&r[c]);
-        uu += squared(&seen(cone, &u));
-    }
-    ratio(errors, larger(qq, larger(rr, uu)))
+    (ratio(errors, speeds), ratio(plain_errors, larger(qq, larger(rr, uu))))
 }
 
 /// √(a/b), zero where a is, NaN where one is not finite: a projection may make zero of what is no number, the sizes still show it.
@@ -237,12 +239,40 @@ fn squared<const D: usize>(a: &Vector<D>) -> f64 {
     dot(a, a)
 }
 
-/// w_c of the scaled residual.
-#[inline]
-pub(crate) fn mean_diagonal<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, c: usize) -> f64 {
-    let block = problem.operator.diagonal(c);
-    if problem.cones[c] == Cone::Signorini {
-        return block[0][0];
+/// One contact as the scaled residual sees it.
+struct Measured<const D: usize> {
+    cone: Cone,
+    w: f64,
+    q: Vector<D>,
+    u: Vector<D>,
+    r: Vector<D>,
+}
+
+/// Only what the law knows of q, u and r, with w_c; of a rolling contact in velocities and impulses alone (theory (52)).
+#[inline(always)]
+fn in_one_unit<O: Operator<D>, const D: usize>(
+    problem: &Problem<'_, O, D>,
+    c: usize,
+    u: &Vector<D>,
+    r: &Vector<D>,
+) -> Measured<D> {
+    let (cone, q, block) = (problem.cones[c], &problem.q[c], problem.operator.diagonal(c));
+    match cone {
+        Cone::Signorini => Measured { cone, w: block[0][0], q: seen(cone, q), u: seen(cone, u), r: *r },
+        Cone::Rolling { mu, mu_r } => {
+            let (w, arm) = arm(block);
+            let turned = |a: &Vector<D>, by: f64| std::array::from_fn(|i| if i >= D.div_ceil(2) { by * a[i] } else { a[i] });
+            let cone = Cone::Rolling { mu, mu_r: mu_r / arm };
+            Measured { cone, w, q: turned(q, arm), u: turned(u, arm), r: turned(r, 1.0 / arm) }
+        }
+        _ => Measured { cone, w: (0..D).map(|i| block[i][i]).sum::<f64>() / D as f64, q: *q, u: *u, r: *r },
     }
-    (0..D).map(|i| block[i][i]).sum::<f64>() / D as f64
+}
+
+/// The mean diagonal of the normal and the sliding part, and the arm √(w/w_R) at which moments act like impulses.
+fn arm<const D: usize>(block: &Matrix<D>) -> (f64, f64) {
+    let first = D.div_ceil(2);
+    let w = (0..first).map(|i| block[i][i]).sum::<f64>() / first as f64;
+    let w_rolling = (first..D).map(|i| block[i][i]).sum::<f64>() / (D - first).max(1) as f64;
+    (w, if w > 0.0 && w_rolling > 0.0 { (w / w_rolling).sqrt() } else { 1.0 })
 }

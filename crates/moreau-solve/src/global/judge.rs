@@ -22,6 +22,7 @@ pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
     /// Visits of the last sweep in which the local solver did not reach its own end.
     pub unfinished_visits: u64,
     next_check: u64,
+    skip_to: u64,
 }
 
 impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
@@ -40,20 +41,23 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
             history: Vec::new(),
             unfinished_visits: 0,
             next_check: 1,
+            skip_to: 0,
         }
     }
 
     /// After a sweep that left the impulses `r`, for which `state` stands: how the method ends, if it does.
     ///
-    /// Every one of the first twenty sweeps is measured and then every sixteenth part of those done, as a measure costs what a sweep costs.
+    /// Every one of the first twenty sweeps is measured and then every sixteenth part of those done, but not where
+    /// none can be expected to end the solve: a measure costs what a sweep costs.
     pub(crate) fn after_sweep(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
         self.sweeps += 1;
         let last = self.sweeps >= self.limit;
-        if !(self.settings.history || self.sweeps >= self.next_check || last) {
-            return None;
+        let due = self.sweeps >= self.next_check;
+        if due {
+            self.next_check = self.sweeps + if self.sweeps < 20 { 1 } else { self.sweeps / 16 };
         }
-        self.next_check = self.sweeps + if self.sweeps < 20 { 1 } else { self.sweeps / 16 };
-        self.measured(state, r, claimed)
+        let worthwhile = self.settings.history || last || due && self.sweeps >= self.skip_to;
+        if worthwhile { self.measured(state, r, claimed) } else { None }
     }
 
     /// The same after a step that is worth measuring each time.
@@ -63,11 +67,13 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     }
 
     fn measured(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
+        let before = self.error;
         if self.settings.history {
             let residual = measure(self.problem, state, r, claimed);
             self.history.push(HistoryRow { sweep: self.sweeps, residual });
         }
         self.error = self.weigh(state, r, claimed);
+        self.skip_to = self.sweeps + self.hopeless(before);
         self.measured_at = self.sweeps;
         if !self.error.is_finite() {
             return Some(Status::NotFinite);
@@ -79,6 +85,15 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
             return Some(Status::MaxSweeps);
         }
         self.deadline.filter(|&deadline| Instant::now() >= deadline).map(|_| Status::OutOfTime)
+    }
+
+    /// For how many sweeps a measure cannot but say no: a quarter of those that the fall since the last one, `before`,
+    /// lets expect, but no more than an eighth of those done: some methods fall ever faster.
+    fn hopeless(&self, before: f64) -> u64 {
+        let fall = (before / self.error).ln() / (self.sweeps - self.measured_at).max(1) as f64;
+        let expected = (self.error / self.settings.tolerance).ln() / fall;
+        // A fall from what was never measured is infinite, and expects nothing.
+        if fall > 0.0 && expected > 0.0 { (0.25 * expected).min(0.125 * self.sweeps as f64) as u64 } else { 0 }
     }
 
     /// The criterion at `r`, for which `state` stands.

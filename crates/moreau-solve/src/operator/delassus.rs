@@ -8,7 +8,7 @@ use std::borrow::Cow;
 #[derive(Clone, Debug, Default)]
 pub struct Delassus<const D: usize> {
     starts: Vec<usize>,
-    columns: Vec<usize>,
+    columns: Vec<u32>,
     blocks: Vec<Matrix<D>>,
     diagonal: Vec<Matrix<D>>,
 }
@@ -67,12 +67,12 @@ impl<const D: usize> Delassus<D> {
             let d = j / D;
             if place[d] == usize::MAX || place[d] < start {
                 place[d] = self.columns.len();
-                self.columns.push(d);
+                self.columns.push(d as u32);
             }
         }
         self.columns[start..].sort_unstable();
         for k in start..self.columns.len() {
-            place[self.columns[k]] = k;
+            place[self.columns[k] as usize] = k;
         }
         self.blocks.resize(self.columns.len(), [[0.0; D]; D]);
         for &(i, j, value) in entries {
@@ -93,7 +93,7 @@ impl<const D: usize> Delassus<D> {
         for c in 0..contacts {
             for d in neighbours(c) {
                 if let Some(w) = block(c, d) {
-                    stored.columns.push(d);
+                    stored.columns.push(d as u32);
                     stored.blocks.push(w);
                 }
             }
@@ -123,7 +123,7 @@ impl<const D: usize> Delassus<D> {
     /// The blocks of row c, each with its column.
     pub fn row(&self, c: usize) -> impl Iterator<Item = (usize, &Matrix<D>)> {
         let range = self.starts[c]..self.starts[c + 1];
-        self.columns[range.clone()].iter().copied().zip(&self.blocks[range])
+        self.columns[range.clone()].iter().map(|&d| d as usize).zip(&self.blocks[range])
     }
 }
 
@@ -141,8 +141,8 @@ impl<const D: usize> Operator<D> for Delassus<D> {
 
     fn apply(&self, state: &Self::State, c: usize) -> Vector<D> {
         let mut u = [0.0; D];
-        for k in self.starts[c]..self.starts[c + 1] {
-            let part = mul(&self.blocks[k], &state[self.columns[k]]);
+        for (d, w) in self.row(c) {
+            let part = mul(w, &state[d]);
             for i in 0..D {
                 u[i] += part[i];
             }
