@@ -37,7 +37,7 @@ pub use csr::Csr;
 pub use error::{FileError, Place};
 pub use fclib::{EXPANSION_FLOOR, EXPANSION_LIMIT, read_fclib, write_fclib};
 pub use matrix::{Blocks, Entries, SparseMatrix, Storage};
-pub use stored::{AnyProblem, StoredProblem};
+pub use stored::{Answer, AnyProblem, StoredProblem};
 pub use text::{read_text, write_text};
 
 use std::io::Write;

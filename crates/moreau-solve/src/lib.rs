@@ -56,3 +56,8 @@ pub struct Row {
     /// What it is, in one line.
     pub about: &'static str,
 }
+
+// The program of the README is run with the tests.
+#[cfg(all(doctest, feature = "files"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

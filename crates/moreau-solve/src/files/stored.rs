@@ -2,7 +2,7 @@
 
 use super::{Blocks, Csr, Equations, FileError, ProblemFile, SparseMatrix, Storage};
 use crate::block::Vector;
-use crate::{Cone, Delassus, Problem};
+use crate::{Cone, Delassus, Problem, Report, Scratch, Settings, solve};
 
 /// A problem whose parts are its own.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +38,38 @@ impl<const D: usize> StoredProblem<D> {
     fn new(w: &Csr, q: &[f64], cones: Vec<Cone>) -> Self {
         let q = q.chunks_exact(D).map(|part| std::array::from_fn(|i| part[i])).collect();
         Self { operator: Delassus::from_entries(cones.len(), w.entries()), q, cones }
+    }
+}
+
+/// The answer to a problem of whatever dimension, flat: component by component, contact by contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// Impulses.
+    pub r: Vec<f64>,
+    /// Velocities, u = W r + q.
+    pub u: Vec<f64>,
+    /// How the solve ended, with its certificate.
+    pub report: Report,
+}
+
+impl AnyProblem {
+    /// Solves it from zero.
+    pub fn solve(&self, settings: &Settings) -> Answer {
+        match self {
+            AnyProblem::Plane(stored) => stored.solve(settings),
+            AnyProblem::Solid(stored) | AnyProblem::PlaneRolling(stored) => stored.solve(settings),
+            AnyProblem::SolidRolling(stored) => stored.solve(settings),
+        }
+    }
+}
+
+impl<const D: usize> StoredProblem<D> {
+    fn solve(&self, settings: &Settings) -> Answer {
+        let (problem, mut scratch) = (self.problem(), Scratch::default());
+        let mut r = vec![[0.0; D]; problem.len()];
+        let report = solve(&problem, settings, &mut r, &mut scratch);
+        let u = (0..problem.len()).flat_map(|c| problem.velocity(scratch.state(), c)).collect();
+        Answer { r: r.into_flattened(), u, report }
     }
 }
 

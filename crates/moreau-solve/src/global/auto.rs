@@ -1,15 +1,15 @@
 //! Chooses the method by what it sees of the problem and of the residual, and says what it did in the report's stages.
 //!
 //! ```text
-//! accelerated sweeps, 100 and a quarter of the unknowns, at most 400
-//! repeat until the criterion is met:
-//!   while the sweeps fall fast enough to end within twice as many: more of them
+//! repeat until the criterion is met, each time with twice as many sweeps:
+//!   accelerated sweeps, at first 100 and a quarter of the unknowns, at most 400; more while they promise to end soon
 //!   steps of the active set method, if the factors are not too large
-//!   twice as many accelerated sweeps; from the third round on in a shuffled order with the exact local solver
+//!   once: the active set method from the first guess, with its few sweeps between the steps
+//!   from the third time on, the sweeps are in a shuffled order and with the exact local solver
 //! ```
 //!
 //! Sweeps are by far the cheapest and end most problems; a step costs some fifty of them and ends those on which they crawl. Where both
-//! stall, another order of the contacts is another method: Gauss-Seidel's fixed points are the same, its paths are not.
+//! stall, another start or another order of the contacts is another method: solutions are the same, the paths to them are not.
 
 use super::{Work, active_set, keep};
 use crate::report::Stage;
@@ -23,24 +23,33 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
     let unknowns = work.problem.len() * D;
     let given = work.settings;
     let mut budget = (100 + unknowns as u64 / 4).min(MOST_FIRST_SWEEPS);
+    let first = work.r.to_vec();
     let mut stored = None;
     let (mut best, mut answer) = (f64::INFINITY, Vec::new());
     for round in 0_u64.. {
         if round >= 2 {
             work.settings = crate::Settings { order: Order::Shuffled(round), local: LocalMethod::Exact, ..given };
         }
-        if let Some(status) = sweeps(work, budget) {
-            return ended(work, status, best, &answer);
-        }
-        if unknowns <= active_set::LARGEST {
+        let mut end = sweeps(work, budget);
+        if end.is_none() && unknowns <= active_set::LARGEST {
             let stored = stored.get_or_insert_with(|| work.problem.operator.stored().into_owned());
-            if let Some(status) = stage(work, GlobalMethod::ActiveSet, |work| active_set::steps(work, stored)) {
-                return ended(work, status, best, &answer);
-            }
+            end = stage(work, GlobalMethod::ActiveSet, |work| active_set::steps(work, stored));
         }
         if work.judge.error < best || answer.is_empty() {
             best = work.judge.error;
             keep(&mut answer, work.r);
+        }
+        if end.is_none() && round == 0 && unknowns <= active_set::LARGEST {
+            work.r.copy_from_slice(&first);
+            end = stage(work, GlobalMethod::ActiveSet, |work| limited(work, GlobalMethod::ActiveSet, 4 * budget));
+            if work.judge.error < best {
+                best = work.judge.error;
+                keep(&mut answer, work.r);
+            }
+            work.r.copy_from_slice(&answer);
+        }
+        if let Some(status) = end {
+            return ended(work, status, best, &answer);
         }
         budget *= 2;
     }
@@ -50,23 +59,29 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
 /// Accelerated sweeps, `budget` of them and again as many while they promise to end soon.
 fn sweeps<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, budget: u64) -> Option<Status> {
     stage(work, GlobalMethod::Accelerated, |work| {
-        let limit = work.judge.limit;
+        let mut before = work.judge.error;
         loop {
-            let before = work.judge.error;
-            work.judge.limit = limit.min(work.judge.sweeps + budget);
-            let status = work.run(GlobalMethod::Accelerated);
-            work.judge.limit = limit;
-            if status != Status::MaxSweeps || work.judge.sweeps >= limit {
+            if let Some(status) = limited(work, GlobalMethod::Accelerated, budget) {
                 return Some(status);
             }
-            let now = work.judge.error;
-            let (fallen, to_fall) = ((before / now).ln(), (now / work.settings.tolerance).ln());
+            let (fallen, to_fall) = ((before / work.judge.error).ln(), (work.judge.error / work.settings.tolerance).ln());
             // Of the first sweeps it is not known whence they fell.
-            if before.is_finite() && (fallen.is_nan() || 2.0 * fallen < to_fall) || before.is_infinite() {
+            let soon = before.is_finite() && 2.0 * fallen >= to_fall;
+            if !soon {
                 return None;
             }
+            before = work.judge.error;
         }
     })
+}
+
+/// At most `budget` sweeps or steps of one method; how they ended the solve, if they did.
+fn limited<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, method: GlobalMethod, budget: u64) -> Option<Status> {
+    let limit = work.judge.limit;
+    work.judge.limit = limit.min(work.judge.sweeps + budget);
+    let status = work.run(method);
+    work.judge.limit = limit;
+    (status != Status::MaxSweeps || work.judge.sweeps >= limit).then_some(status)
 }
 
 /// Runs one method and notes what it did.
