@@ -2,10 +2,15 @@
 
 mod accelerated;
 mod active_set;
+mod admm;
+mod apgd;
 mod auto;
+mod cpg;
 pub(crate) mod judge;
+mod lemke;
 mod mixing;
 mod nlgs;
+mod steps;
 mod sweep;
 
 use crate::block::Vector;
@@ -15,7 +20,7 @@ use crate::residual::measure;
 use crate::{Operator, Problem, Report, Row, Settings, Status};
 use judge::Judge;
 
-/// The methods by name. Adding one is a file, a variant with its row in [`GLOBAL_METHODS`], and an arm of [`Work::run`].
+/// The methods by name. Adding one is a file, a variant with its row in [`GLOBAL_METHODS`], and an arm of `Work::run`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(
     feature = "schema",
@@ -30,6 +35,14 @@ pub enum GlobalMethod {
     Accelerated,
     /// Global primal-dual active set.
     ActiveSet,
+    /// Conjugate projected gradients.
+    Cpg,
+    /// Accelerated projected gradient descent.
+    Apgd,
+    /// The alternating direction method of multipliers.
+    Admm,
+    /// Pivoting: Lemke's method.
+    Lemke,
     /// Whatever the problem asks for.
     Auto,
 }
@@ -41,6 +54,13 @@ pub const GLOBAL_METHODS: &[(GlobalMethod, Row)] = &[
     (
         GlobalMethod::ActiveSet,
         Row { name: "active_set", about: "Newton on all contacts at once, after sweeps: for tight tolerances" },
+    ),
+    (GlobalMethod::Cpg, Row { name: "cpg", about: "conjugate projected gradients: products with W only" }),
+    (GlobalMethod::Apgd, Row { name: "apgd", about: "projected gradients with Nesterov's momentum: products with W only" }),
+    (GlobalMethod::Admm, Row { name: "admm", about: "splitting: W is factorised once, a step solves with it and projects" }),
+    (
+        GlobalMethod::Lemke,
+        Row { name: "lemke", about: "exact pivoting: small problems without friction or with it in the plane" },
     ),
     (GlobalMethod::Auto, Row { name: "auto", about: "accelerated, then active_set where that is not enough; says what it did" }),
 ];
@@ -97,6 +117,10 @@ impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
     fn run(&mut self, method: GlobalMethod) -> Status {
         match method {
             GlobalMethod::Auto => auto::run(self),
+            GlobalMethod::Cpg => cpg::run(self),
+            GlobalMethod::Apgd => apgd::run(self),
+            GlobalMethod::Admm => admm::run(self),
+            GlobalMethod::Lemke => lemke::run(self),
             GlobalMethod::Nlgs | GlobalMethod::Accelerated | GlobalMethod::ActiveSet => {
                 with_local(self.settings, Sweeping { work: self, method })
             }

@@ -265,8 +265,16 @@ fn in_one_unit<O: Operator<D>, const D: usize>(
             let cone = Cone::Rolling { mu, mu_r: mu_r / arm };
             Measured { cone, w, q: turned(q, arm), u: turned(u, arm), r: turned(r, 1.0 / arm) }
         }
-        _ => Measured { cone, w: (0..D).map(|i| block[i][i]).sum::<f64>() / D as f64, q: *q, u: *u, r: *r },
+        _ => Measured { cone, w: mean_diagonal(problem, c), q: *q, u: *u, r: *r },
     }
+}
+
+/// w_c, the mean diagonal of what the law knows of the block.
+#[inline]
+pub(crate) fn mean_diagonal<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, c: usize) -> f64 {
+    let block = problem.operator.diagonal(c);
+    let known = if problem.cones[c] == Cone::Signorini { 1 } else { D };
+    (0..known).map(|i| block[i][i]).sum::<f64>() / known as f64
 }
 
 /// The mean diagonal of the normal and the sliding part, and the arm √(w/w_R) at which moments act like impulses.

@@ -1,0 +1,117 @@
+//! W + ϱ D, factorised.
+//!
+//! All is divided by the greatest w_c, so that the same problem in other units has the same factors to the bit. An unknown that
+//! is zero by its law, or that impulses do not move, has a row of its own and stays as it is.
+
+use super::super::steps::scales;
+use super::{FILL, LIMIT};
+use crate::block::Vector;
+use crate::{Cone, Operator, Problem};
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::cholesky::factorize_symbolic_cholesky;
+use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{ColMut, Side};
+
+/// The asymmetry of W, relative to its greatest entry, that is taken for rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// The matrix with its factors.
+pub(super) struct System {
+    entries: Vec<Triplet<usize, usize, f64>>,
+    /// D for each unknown, zero where it stays.
+    weights: Vec<f64>,
+    greatest: f64,
+    symbolic: Symbolic,
+    factors: Option<Factors>,
+}
+
+enum Symbolic {
+    Symmetric(SymbolicLlt<usize>),
+    Any(SymbolicLu<usize>),
+}
+
+enum Factors {
+    Definite(Llt<usize, f64>),
+    Any(Box<Lu<usize, f64>>),
+}
+
+impl System {
+    /// `None` where the problem is too large.
+    pub(super) fn new<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Option<Self> {
+        let unknowns = problem.len() * D;
+        if unknowns > LIMIT {
+            return None;
+        }
+        let w = scales(problem);
+        let greatest = w.iter().copied().fold(0.0, f64::max);
+        let frictionless = |c: usize| matches!(problem.cones[c], Cone::Signorini | Cone::Coulomb(0.0));
+        let weight = |k: usize| if !k.is_multiple_of(D) && frictionless(k / D) { 0.0 } else { w[k / D] / greatest };
+        let weights: Vec<f64> = (0..unknowns).map(|k| if greatest > 0.0 { weight(k) } else { 0.0 }).collect();
+        let mut entries: Vec<_> = (0..unknowns).filter(|&k| weights[k] == 0.0).map(|k| Triplet::new(k, k, 1.0)).collect();
+        for (c, d, block) in problem.operator.stored().blocks() {
+            for (i, row) in block.iter().enumerate() {
+                for (j, &x) in row.iter().enumerate() {
+                    let (i, j) = (c * D + i, d * D + j);
+                    if weights[i] > 0.0 && weights[j] > 0.0 {
+                        entries.push(Triplet::new(i, j, x / greatest));
+                    }
+                }
+            }
+        }
+        let matrix = SparseColMat::try_new_from_triplets(unknowns, unknowns, &entries).ok()?;
+        let pattern = matrix.symbolic();
+        let fill = factorize_symbolic_cholesky(pattern, Side::Lower, Default::default(), Default::default()).ok()?.len_val();
+        if fill > FILL {
+            return None;
+        }
+        let symbolic = if symmetric(&matrix) {
+            Symbolic::Symmetric(SymbolicLlt::try_new(pattern, Side::Lower).ok()?)
+        } else {
+            Symbolic::Any(SymbolicLu::try_new(pattern).ok()?)
+        };
+        Some(Self { entries, weights, greatest, symbolic, factors: None })
+    }
+
+    /// Makes the factors for this ϱ; `false` where there are none.
+    pub(super) fn factorise(&mut self, rho: f64) -> bool {
+        let n = self.weights.len();
+        let shifted = self.entries.iter().map(|e| {
+            let shift = if e.row == e.col { rho * self.weights[e.row] } else { 0.0 };
+            Triplet::new(e.row, e.col, e.val + shift)
+        });
+        let Ok(matrix) = SparseColMat::try_new_from_triplets(n, n, &shifted.collect::<Vec<_>>()) else { return false };
+        self.factors = match &self.symbolic {
+            Symbolic::Symmetric(symbolic) => {
+                let factors = Llt::try_new_with_symbolic(symbolic.clone(), matrix.as_ref(), Side::Lower);
+                factors.ok().map(Factors::Definite).or_else(|| Some(Factors::Any(Box::new(matrix.sp_lu().ok()?))))
+            }
+            Symbolic::Any(symbolic) => {
+                let factors = Lu::try_new_with_symbolic(symbolic.clone(), matrix.as_ref());
+                factors.ok().map(|factors| Factors::Any(Box::new(factors)))
+            }
+        };
+        self.factors.is_some()
+    }
+
+    /// x ← (W + ϱ D)⁻¹ x; what stays has the impulse of `r`.
+    pub(super) fn solve<const D: usize>(&self, x: &mut [Vector<D>], r: &[Vector<D>]) {
+        for ((x, r), &weight) in x.as_flattened_mut().iter_mut().zip(r.as_flattened()).zip(&self.weights) {
+            *x = if weight > 0.0 { *x / self.greatest } else { *r };
+        }
+        let side = ColMut::from_slice_mut(x.as_flattened_mut()).as_mat_mut();
+        match &self.factors {
+            Some(Factors::Definite(factors)) => factors.solve_in_place(side),
+            Some(Factors::Any(factors)) => factors.solve_in_place(side),
+            None => {}
+        }
+    }
+}
+
+/// Whether the matrix is symmetric but for rounding.
+fn symmetric(matrix: &SparseColMat<usize, f64>) -> bool {
+    let value = |i: usize, j: usize| matrix.get(i, j).copied().unwrap_or(0.0);
+    let entries = || matrix.triplet_iter().map(|e| (e.row, e.col, *e.val));
+    let greatest = entries().fold(0.0, |s: f64, (_, _, x)| s.max(x.abs()));
+    entries().all(|(i, j, x)| (x - value(j, i)).abs() <= ROUNDING * greatest)
+}
