@@ -4,7 +4,7 @@ use crate::failure::{Failure, say, writable, write_whole};
 use crate::plot::{Curve, semilog};
 use crate::rho::{self, Study};
 use crate::table::aligned;
-use crate::{progress, scene};
+use crate::{names, progress, scene};
 use moreau::compare::{Methods, Probe, Row, compare_one};
 use moreau::run::End;
 use moreau::scene::{AnyWorld, Scene};
@@ -24,10 +24,10 @@ pub(crate) struct Args {
     /// The scene file
     scene: PathBuf,
     /// Local solvers
-    #[arg(long, value_delimiter = ',', value_parser = local, default_value = "sbp,sal,ebp,eal,pdas")]
+    #[arg(long, value_delimiter = ',', value_parser = names::local, default_value = "sbp,sal,ebp,eal,pdas")]
     local: Vec<LocalMethod>,
     /// Global solvers
-    #[arg(long, value_delimiter = ',', value_parser = global, default_value = "nlgs")]
+    #[arg(long, value_delimiter = ',', value_parser = names::global, default_value = "nlgs")]
     global: Vec<GlobalMethod>,
     /// Change a value of the scene: key.path=value (may be given again)
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -45,26 +45,11 @@ pub(crate) struct Args {
     #[arg(long)]
     plot: Option<PathBuf>,
     /// Show instead how the sweeps depend on ρ: values relative to the automatic one, such as 0.2,0.4,1
-    #[arg(long, value_delimiter = ',', value_parser = rho_value)]
+    #[arg(long, value_delimiter = ',', value_parser = names::positive)]
     rho: Vec<f64>,
     /// No progress bar
     #[arg(long)]
     quiet: bool,
-}
-
-fn rho_value(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("a positive number is wanted".to_owned()),
-    }
-}
-
-fn local(name: &str) -> Result<LocalMethod, String> {
-    LocalMethod::from_name(name).ok_or_else(|| "no such local solver; see `moreau list local`".to_owned())
-}
-
-fn global(name: &str) -> Result<GlobalMethod, String> {
-    GlobalMethod::from_name(name).ok_or_else(|| "no such global solver; see `moreau list global`".to_owned())
 }
 
 /// Runs all pairs of methods and reports.
@@ -218,6 +203,7 @@ fn verdict(rows: &[Row], at: u64) -> Result<(), Failure> {
         match &row.end {
             End::Done => {}
             End::Interrupted => return Err(Failure::interrupted("the table above is of what was done")),
+            End::Unwritten => return Err(Failure::computation(format!("{}: the run could not be completed", name(row)))),
             End::Failed(error) => return Err(Failure::computation(format!("{}: {error}", name(row)))),
         }
     }

@@ -5,8 +5,8 @@
 //! | 0 | done |
 //! | 1 | something could not be read or written |
 //! | 2 | wrong words on the command line (from the parser) |
-//! | 3 | the scene is wrong |
-//! | 4 | the computation failed: a solve did not converge under the policy `stop`, or a number ceased to be finite |
+//! | 3 | the scene or the problem in a file is wrong |
+//! | 4 | the computation failed: a solve of `moreau solve` or under the policy `stop` did not converge, or a number ceased to be finite |
 //! | 5 | solvers that should agree do not |
 //! | 130 | interrupted; what was computed is kept |
 
@@ -33,7 +33,7 @@ impl Failure {
         Self { code: 2, message: message.to_string() }
     }
 
-    /// A scene.
+    /// A scene, or the problem that a file holds.
     pub(crate) fn scene(message: impl Display) -> Self {
         Self { code: 3, message: message.to_string() }
     }
@@ -51,6 +51,16 @@ impl Failure {
     /// Ctrl-C.
     pub(crate) fn interrupted(message: impl Display) -> Self {
         Self { code: 130, message: message.to_string() }
+    }
+
+    /// Says it on the standard error as something that does no harm: what was done about it, and why.
+    pub(crate) fn note(&self, done: &str) {
+        let _ = writeln!(std::io::stderr(), "note: {done}: {}", self.message);
+    }
+
+    /// A last word with the code of this failure, whose own message was printed before.
+    pub(crate) fn again(self, message: String) -> Self {
+        Self { message, ..self }
     }
 
     /// Prints the message and gives the code.

@@ -4,10 +4,10 @@ use crate::failure::{Failure, say};
 use crate::table::aligned;
 use clap::ValueEnum;
 use moreau::scene::Scene;
-use moreau::solve::Row;
 use moreau::solve::global::GLOBAL_METHODS;
 use moreau::solve::law::LAWS;
 use moreau::solve::local::LOCAL_METHODS;
+use moreau::solve::{CRITERIA, Row};
 use moreau::{observe::OUTPUTS, shape};
 
 /// What to list.
@@ -19,6 +19,8 @@ enum What {
     Local,
     /// Global solvers
     Global,
+    /// Measures that end a solve
+    Criteria,
     /// Shapes
     Shapes,
     /// Outputs
@@ -38,6 +40,7 @@ pub(crate) fn list(args: &Args) -> Result<(), Failure> {
         What::Laws => LAWS.iter().map(row).collect(),
         What::Local => LOCAL_METHODS.iter().map(|(_, it)| row(it)).collect(),
         What::Global => GLOBAL_METHODS.iter().map(|(_, it)| row(it)).collect(),
+        What::Criteria => CRITERIA.iter().map(|(_, it)| row(it)).collect(),
         What::Shapes => {
             let named = |dimension: &str, it: &Row| vec![it.name.to_owned(), dimension.to_owned(), it.about.to_owned()];
             let plane = shape::plane::SHAPES.iter().map(|it| named("2D", it));

@@ -2,14 +2,19 @@
 
 mod check;
 mod compare;
+mod convert;
 mod failure;
 mod list;
+mod names;
 mod new;
 mod plot;
+mod problem;
+mod profile;
 mod progress;
 mod rho;
 mod run;
 mod scene;
+mod solve;
 mod table;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +35,12 @@ enum Command {
     Run(run::Args),
     /// Run a scene with several solvers from the same start and print the paper's table
     Compare(compare::Args),
+    /// Solve problem files, FCLIB's .hdf5 or Siconos's .dat, and say how good the answers are
+    Solve(solve::Args),
+    /// Solve a folder of problem files by many solvers: results.csv and performance profiles
+    Profile(profile::Args),
+    /// Write a problem file in the other format
+    Convert(convert::Args),
     /// Write a commented scene to start from
     New(new::Args),
     /// Say what a scene would run, without running it
@@ -44,6 +55,9 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
         Command::Compare(args) => compare::compare(&args),
+        Command::Solve(args) => solve::solve(&args),
+        Command::Profile(args) => profile::profile(&args),
+        Command::Convert(args) => convert::convert(&args),
         Command::New(args) => new::new(&args),
         Command::Check(args) => check::check(&args),
         Command::List(args) => list::list(&args),

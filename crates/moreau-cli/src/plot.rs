@@ -20,12 +20,26 @@ pub(crate) fn semilog(title: &str, x_label: &str, y_label: &str, curves: &[Curve
         curve.points.iter().filter(|(_, y)| *y > 0.0).map(|&(x, y)| (x, y.log10())).collect()
     };
     let ticks = TickFormat::Custom(Arc::new(|exponent: f64| format!("1e{exponent:.0}")));
-    draw(title, x_label, y_label, curves, log, Some(ticks))
+    draw(title, x_label, y_label, curves, log, |layout| layout.with_y_tick_format(ticks).with_y_tick_step(1.0))
 }
 
 /// Draws curves over linear axes.
 pub(crate) fn linear(title: &str, x_label: &str, y_label: &str, curves: &[Curve]) -> String {
-    draw(title, x_label, y_label, curves, |curve| curve.points.clone(), None)
+    draw(title, x_label, y_label, curves, |curve| curve.points.clone(), |layout| layout)
+}
+
+/// Draws performance profiles: parts from 0 to 1 over τ ≥ 1, whose logarithm to base 2 is taken here as in [`semilog`].
+pub(crate) fn profile(title: &str, curves: &[Curve]) -> String {
+    let log = |curve: &Curve| curve.points.iter().map(|&(tau, part)| (tau.log2(), part)).collect();
+    let ticks = TickFormat::Custom(Arc::new(|exponent: f64| format!("{}", exponent.exp2())));
+    let end = curves.iter().flat_map(|curve| &curve.points).map(|&(tau, _)| tau.log2()).fold(0.0, f64::max);
+    // Ten ticks or so, at whole powers.
+    let step = (end / 10.0).ceil().max(1.0);
+    let axes = |layout: Layout| {
+        let layout = layout.with_x_tick_format(ticks).with_x_tick_step(step).with_x_axis_min(0.0).with_x_axis_max(end.max(1.0));
+        layout.with_y_axis_min(0.0).with_y_axis_max(1.02).with_y_tick_step(0.2)
+    };
+    draw(title, "τ", "part of the problems", curves, log, axes)
 }
 
 fn draw(
@@ -34,7 +48,7 @@ fn draw(
     y_label: &str,
     curves: &[Curve],
     points: impl Fn(&Curve) -> Vec<(f64, f64)>,
-    y_ticks: Option<TickFormat>,
+    axes: impl FnOnce(Layout) -> Layout,
 ) -> String {
     let plots: Vec<Plot> = curves
         .iter()
@@ -53,9 +67,6 @@ fn draw(
             }
         })
         .collect();
-    let mut layout = Layout::auto_from_plots(&plots).with_title(title).with_x_label(x_label).with_y_label(y_label);
-    if let Some(ticks) = y_ticks {
-        layout = layout.with_y_tick_format(ticks).with_y_tick_step(1.0);
-    }
-    render_to_svg(plots, layout)
+    let layout = Layout::auto_from_plots(&plots).with_title(title).with_x_label(x_label).with_y_label(y_label);
+    render_to_svg(plots, axes(layout))
 }

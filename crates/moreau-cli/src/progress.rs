@@ -22,11 +22,17 @@ pub(crate) fn stop_on_ctrl_c() -> Result<&'static AtomicBool, Failure> {
 
 /// A bar over `steps` steps, hidden if `quiet` or if nobody looks.
 pub(crate) fn bar(steps: u64, quiet: bool) -> ProgressBar {
+    bar_of("steps", steps, quiet)
+}
+
+/// The same over `count` of `what`.
+pub(crate) fn bar_of(what: &str, count: u64, quiet: bool) -> ProgressBar {
     if quiet || !std::io::stderr().is_terminal() {
-        return ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
+        return ProgressBar::with_draw_target(Some(count), ProgressDrawTarget::hidden());
     }
-    let bar = ProgressBar::new(steps);
-    if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {pos}/{len} steps {per_sec} eta {eta} {msg}") {
+    let bar = ProgressBar::new(count);
+    let template = format!("{{prefix}} {{wide_bar}} {{pos}}/{{len}} {what} {{per_sec}} eta {{eta}} {{msg}}");
+    if let Ok(style) = ProgressStyle::with_template(&template) {
         bar.set_style(style);
     }
     bar

@@ -2,12 +2,12 @@
 
 use crate::failure::{Failure, say, writable, write_whole};
 use crate::{progress, scene};
-use moreau::observe::{Observer, OutputError, StepsCsv, VtkOutput};
-use moreau::run::{End, Outcome};
+use moreau::observe::{FailedProblems, Observer, OutputError, StepsCsv, VtkOutput};
+use moreau::run::{End, Outcome, Unwritten};
 use moreau::scene::{AnyWorld, OutputKind, Scene};
 use moreau::space::Space;
-use moreau::step::Workspace;
-use moreau::world::{StepSettings, World};
+use moreau::step::{FAILED_KEPT, Workspace};
+use moreau::world::{OnFailure, StepSettings, World};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `moreau run`.
@@ -75,7 +75,13 @@ fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
     }
     let old_frames = std::fs::read_dir(&vtk).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_frame = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "vtp" || extension == "pvd");
-    for path in files[1..].iter().cloned().chain(old_frames.filter(is_frame)) {
+    let old_problems = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let is_problem = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with("failed-step-") && name.ends_with(".hdf5") && path.is_file()
+    };
+    let old = old_frames.filter(is_frame).chain(old_problems.filter(is_problem));
+    for path in files[1..].iter().cloned().chain(old) {
         match std::fs::remove_file(&path) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(wrong(&path, &error)),
             _ => {}
@@ -95,6 +101,9 @@ fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
     if scene.output.kinds.contains(&OutputKind::Vtk) && scene.vtk_every() > 0 {
         observers.push(Box::new(VtkOutput::create(&folder.join("vtk"), scene.vtk_every())?));
     }
+    if scene.solver.on_failure == OnFailure::Dump {
+        observers.push(Box::new(FailedProblems::new(folder)));
+    }
     Ok(observers)
 }
 
@@ -110,20 +119,30 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
     let bodies = world.bodies.len();
     let bar = progress::bar(scene.time.steps, args.quiet);
     let pool = scene::pool(usize::from(args.threads))?;
-    let outcome = pool
-        .install(|| {
-            moreau::run::run(&mut world, &mut Workspace::default(), scene.time.steps, &mut observers, stop, |record| {
-                if !bar.is_hidden() {
-                    progress::tick(&bar, record);
-                }
-            })
+    let result = pool.install(|| {
+        moreau::run::run(&mut world, &mut Workspace::default(), scene.time.steps, &mut observers, stop, |record| {
+            if !bar.is_hidden() {
+                progress::tick(&bar, record);
+            }
         })
-        .map_err(Failure::file)?;
+    });
     bar.finish_and_clear();
+    // What could not be written ends the run, but not without its summary.
+    let (outcome, unwritten) = match result {
+        Ok(outcome) => (outcome, None),
+        Err(unwritten) => {
+            let Unwritten { error, outcome } = *unwritten;
+            (outcome, Some(error))
+        }
+    };
     let threads = usize::from(args.threads);
     let mut summary = outcome.summary.to_json(bodies, &settings, threads, outcome.seconds_total, outcome.seconds_output);
     summary["memory_bytes"] = scene::memory_in_use().into();
-    write_whole(&folder.join("summary.json"), &format!("{summary:#}\n"))?;
+    let written = write_whole(&folder.join("summary.json"), &format!("{summary:#}\n"));
+    if let Some(error) = unwritten {
+        return Err(Failure::file(format!("{error}; {}", kept(&outcome, folder))));
+    }
+    written?;
     if !args.quiet {
         say(&describe(&outcome, bodies, &settings, folder))?;
     }
@@ -140,7 +159,7 @@ fn describe(outcome: &Outcome, bodies: usize, settings: &StepSettings, folder: &
     format!(
         "{} steps, {bodies} bodies, {} inside {}: {:.1} sweeps a step, {unconverged}\n\
          {:.2} s in all, {:.2} s for contact impulses, {:.2} s for files\n\
-         results in {}\n",
+         {}results in {}\n",
         summary.steps(),
         settings.solver.local.name(),
         settings.solver.global.name(),
@@ -148,14 +167,38 @@ fn describe(outcome: &Outcome, bodies: usize, settings: &StepSettings, folder: &
         outcome.seconds_total,
         summary.seconds_solve(),
         outcome.seconds_output,
+        failed_problems(outcome, folder),
         folder.display(),
     )
 }
 
+/// Where the problems of failed solves are, under the policy `dump`.
+fn failed_problems(outcome: &Outcome, folder: &Path) -> String {
+    let summary = &outcome.summary;
+    let mut text = String::new();
+    if let [first, ..] = summary.failed_problems() {
+        let count = summary.failed_problems().len();
+        let more =
+            if summary.unconverged() > FAILED_KEPT { format!(", of the first {FAILED_KEPT} that failed") } else { String::new() };
+        text += &format!(
+            "problems of {count} failed solves{more}; solve again with: moreau solve {}\n",
+            folder.join(first).display()
+        );
+    }
+    if let Some(reason) = summary.refused_problem() {
+        text += &format!("no problem file could be made of {reason}\n");
+    }
+    text
+}
+
+fn kept(outcome: &Outcome, folder: &Path) -> String {
+    format!("the {} steps before are kept in {}", outcome.summary.steps(), folder.display())
+}
+
 fn verdict(outcome: &Outcome, folder: &Path) -> Result<(), Failure> {
-    let kept = format!("the {} steps before are kept in {}", outcome.summary.steps(), folder.display());
+    let kept = kept(outcome, folder);
     match &outcome.end {
-        End::Done => Ok(()),
+        End::Done | End::Unwritten => Ok(()),
         End::Interrupted => Err(Failure::interrupted(kept)),
         End::Failed(error) => Err(Failure::computation(format!("{error}; {kept}"))),
     }

@@ -18,7 +18,8 @@ fn tables_have_a_row_for_each_name() {
     let known = [
         ("laws", &["frictionless", "coulomb", "sticking"][..]),
         ("local", &["sbp", "sal", "ebp", "eal", "pdas", "exact"]),
-        ("global", &["nlgs"]),
+        ("global", &["nlgs", "accelerated"]),
+        ("criteria", &["eps_glob", "scaled", "siconos", "strict"]),
         ("shapes", &["ball", "box", "half_space", "disk", "polygon", "half_plane"]),
         ("outputs", &["vtk", "steps"]),
     ];
@@ -40,6 +41,7 @@ fn scenes_can_name_all_that_is_listed() {
     };
     set("local", |name| format!("solver.local={name}"));
     set("global", |name| format!("solver.global={name}"));
+    set("criteria", |name| format!("solver.criterion={name}"));
     set("outputs", |name| format!("output.kinds=[\"{name}\"]"));
     set("laws", |name| format!("default_law={{ {name} = {} }}", if name == "coulomb" { "{ friction = 0.3 }" } else { "{}" }));
 }

@@ -258,7 +258,7 @@ impl ProblemFile {
             (!self.guesses.is_empty(), "the guesses"),
             (self.solution.is_some(), "the solution"),
         ];
-        parts.iter().filter(|p| p.0).map(|p| format!("{} are not in the text format", p.1)).collect()
+        parts.iter().filter(|p| p.0).map(|p| format!("the text format has no place for {}", p.1)).collect()
     }
 }
 

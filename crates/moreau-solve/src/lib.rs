@@ -46,7 +46,7 @@ pub use order::Order;
 pub use problem::Problem;
 pub use report::{HistoryRow, Report, Stage, Status};
 pub use residual::{EpsGlob, Residual, Worst};
-pub use settings::{Criterion, Parameter, Resolved, Settings, SettingsError};
+pub use settings::{CRITERIA, Criterion, Parameter, Resolved, Settings, SettingsError};
 
 /// One line of a table of what can be named in a scene: laws, solvers, shapes, outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

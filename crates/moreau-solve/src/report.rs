@@ -20,6 +20,20 @@ pub enum Status {
     NotFinite,
 }
 
+impl Status {
+    /// Its name in tables and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Converged => "converged",
+            Status::MaxSweeps => "max_sweeps",
+            Status::OutOfTime => "out_of_time",
+            Status::Stalled => "stalled",
+            Status::Unsuited => "unsuited",
+            Status::NotFinite => "not_finite",
+        }
+    }
+}
+
 /// The residuals after one sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HistoryRow {

@@ -1,6 +1,6 @@
 //! How a problem is to be solved.
 
-use crate::{GlobalMethod, LocalMethod, Order};
+use crate::{GlobalMethod, LocalMethod, Order, Row};
 
 /// Which measure stops the sweeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,6 +19,26 @@ pub enum Criterion {
     Siconos,
     /// The larger of the scaled and Siconos's residual.
     Strict,
+}
+
+/// The table of criteria.
+pub const CRITERIA: &[(Criterion, Row)] = &[
+    (Criterion::EpsGlob, Row { name: "eps_glob", about: "the paper's ε_glob, in units" }),
+    (Criterion::Scaled, Row { name: "scaled", about: "the scaled residual, without units" }),
+    (Criterion::Siconos, Row { name: "siconos", about: "the residual that Siconos reports" }),
+    (Criterion::Strict, Row { name: "strict", about: "the larger of the scaled and Siconos's residual" }),
+];
+
+impl Criterion {
+    /// Its name in [`CRITERIA`].
+    pub fn name(self) -> &'static str {
+        CRITERIA.iter().find(|(criterion, _)| *criterion == self).map_or("", |(_, row)| row.name)
+    }
+
+    /// The criterion of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        CRITERIA.iter().find(|(_, row)| row.name == name).map(|&(criterion, _)| criterion)
+    }
 }
 
 /// The parameter ρ of SBP, SAL, EBP and EAL, or γ of PDAS: how far a velocity moves an impulse, kg.

@@ -1,7 +1,6 @@
 //! The paper's comparison (section 5): one scene, one start, several solvers.
 
-use crate::observe::OutputError;
-use crate::run::{End, run};
+use crate::run::{End, Unwritten, run};
 use crate::space::Space;
 use crate::step::{StepRecord, Workspace, step};
 use crate::world::{OnFailure, World};
@@ -50,7 +49,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Probe<S, D, N> {
     ///
     /// # Errors
     /// None of its own; the type is that of [`run`].
-    pub fn new(start: &World<S, D, N>, number: u64, tolerance: f64, stop: &AtomicBool) -> Result<Option<Self>, OutputError> {
+    pub fn new(start: &World<S, D, N>, number: u64, tolerance: f64, stop: &AtomicBool) -> Result<Option<Self>, Box<Unwritten>> {
         let mut before = start.clone();
         let outcome = run(&mut before, &mut Workspace::default(), number.saturating_sub(1), &mut [], stop, |_| {})?;
         let settings = &mut before.settings;
@@ -110,11 +109,15 @@ pub fn compare_one<S: Space<D, N>, const D: usize, const N: usize>(
     (steps, repeat): (u64, usize),
     stop: &AtomicBool,
     mut progress: impl FnMut(&StepRecord),
-) -> Result<Row, OutputError> {
+) -> Result<Row, Box<Unwritten>> {
     let (mut history, disagreement) = probe.map_or((Vec::new(), f64::NAN), |probe| probe.take(methods));
-    let mut once = || -> Result<Row, OutputError> {
+    let mut once = || -> Result<Row, Box<Unwritten>> {
         let mut world = start.clone();
         (world.settings.solver.global, world.settings.solver.local) = methods;
+        if world.settings.on_failure == OnFailure::Dump {
+            // Nobody writes the problems of a comparison, and to keep them would count as time of the solver.
+            world.settings.on_failure = OnFailure::Warn;
+        }
         let outcome = run(&mut world, &mut Workspace::default(), steps, &mut [], stop, &mut progress)?;
         Ok(Row {
             methods,

@@ -2,16 +2,18 @@
 //!
 //! A [`Frame`] is a borrowed view of the world after a step. Adding an output is a file, and a row in [`OUTPUTS`].
 
+mod failed;
 mod steps;
 mod summary;
 mod vtk;
 
+pub use failed::FailedProblems;
 pub use steps::StepsCsv;
 pub use summary::Summary;
 pub use vtk::VtkOutput;
 
 use crate::space::Space;
-use crate::step::{Localised, StepRecord};
+use crate::step::{FailedSolve, Localised, StepRecord};
 use crate::world::World;
 use moreau_solve::Row;
 use std::path::PathBuf;
@@ -43,6 +45,9 @@ pub enum OutputError {
         /// Why.
         source: std::io::Error,
     },
+    /// By the word of the writer of problem files.
+    #[error(transparent)]
+    Problem(#[from] moreau_solve::files::FileError),
     /// By the VTK writer's word.
     #[error(transparent)]
     Vtk(#[from] crate::io::vtk::VtkError),
@@ -62,7 +67,17 @@ pub trait Observer<S: Space<D, N>, const D: usize, const N: usize>: Send {
     /// Where what it writes cannot be written.
     fn see(&mut self, frame: &Frame<'_, S, D, N>) -> Result<(), OutputError>;
 
-    /// Completes its files; called once at the end, also of a run that was interrupted.
+    /// Sees the problem of a step whose solve failed under the policy `dump`; returns the name of the file that it makes of it, if it
+    /// makes one.
+    ///
+    /// # Errors
+    /// Where what it writes cannot be written.
+    fn see_failed(&mut self, _: &FailedSolve) -> Result<Option<String>, OutputError> {
+        Ok(None)
+    }
+
+    /// Completes its files; called once at the end, also of a run that was interrupted or cannot go on, and where another
+    /// observer failed.
     ///
     /// # Errors
     /// Where they cannot be written.

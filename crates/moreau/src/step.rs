@@ -1,5 +1,6 @@
 //! One step of the Moreau-Jean scheme, stage by stage.
 
+mod failed;
 mod forces;
 mod integrate;
 mod localise;
@@ -8,6 +9,7 @@ mod record;
 mod system;
 mod workspace;
 
+pub use failed::{FAILED_KEPT, FailedSolve};
 pub use moreau_jean::step;
 pub use record::{Energy, Seconds, StepRecord};
 pub use workspace::{Localised, Workspace};

@@ -25,6 +25,9 @@ pub enum OnFailure {
     Warn,
     /// End the run before the step.
     Stop,
+    /// Take the step all the same, count it, and write its problem to failed-step-N.hdf5 in the folder of the run, for
+    /// `moreau solve`; of a run the first twenty.
+    Dump,
     /// Do the step again in two halves, and these in halves if need be, down to h/64.
     Halve,
 }

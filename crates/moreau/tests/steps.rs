@@ -1,9 +1,12 @@
 //! What a step does besides contacts between free bodies: loads, driven bodies, closing gaps, and what happens when a solve fails.
 
+use moreau::observe::{Frame, Observer, OutputError};
+use moreau::run::{End, run};
 use moreau::scene::{AnyWorld, Scene};
 use moreau::space::{Plane, Solid};
-use moreau::step::{StepError, Workspace, step};
+use moreau::step::{FailedSolve, StepError, Workspace, step};
 use moreau::world::World;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 const FLOOR: &str = r#"
 dimension = 3
@@ -163,6 +166,71 @@ fn a_failed_solve_is_counted_or_ends_the_run_with_the_world_as_it_was() {
         assert!(matches!(error, StepError::Unconverged { sweeps: 2, .. }), "{error}");
         assert_eq!((world.bodies.pose, world.bodies.velocity, world.steps, world.time), (pose, velocity, 0, 0.0), "{policy}");
     }
+}
+
+/// Counts what it is shown, and cannot write after `full` frames.
+struct Counter<'a> {
+    full: u32,
+    seen: &'a AtomicU32,
+    failed: &'a AtomicU32,
+    finished: &'a AtomicU32,
+}
+
+impl Observer<Solid, 3, 6> for Counter<'_> {
+    fn see(&mut self, _: &Frame<'_, Solid, 3, 6>) -> Result<(), OutputError> {
+        match self.seen.fetch_add(1, Ordering::Relaxed) < self.full {
+            true => Ok(()),
+            false => Err(OutputError::Io { path: "full".into(), source: std::io::ErrorKind::StorageFull.into() }),
+        }
+    }
+
+    fn see_failed(&mut self, failed: &FailedSolve) -> Result<Option<String>, OutputError> {
+        self.failed.fetch_add(1, Ordering::Relaxed);
+        assert!(failed.problem.is_ok(), "{:?}", failed.problem);
+        Ok(Some(failed.file_name()))
+    }
+
+    fn finish(&mut self) -> Result<(), OutputError> {
+        self.finished.fetch_add(1, Ordering::Relaxed);
+        Ok(())
+    }
+}
+
+#[test]
+fn an_observer_that_cannot_write_ends_the_run_and_all_observers_finish() {
+    let [seen, failed, finished] = [const { AtomicU32::new(0) }; 3];
+    let counter = |full| -> Box<dyn Observer<Solid, 3, 6> + '_> {
+        Box::new(Counter { full, seen: &seen, failed: &failed, finished: &finished })
+    };
+    // Each frame is seen twice: the third frame is what the first of the two cannot write, and the second sees it all the same.
+    let mut observers = [counter(4), counter(100)];
+    let stop = AtomicBool::new(false);
+    let mut world = hopeless("dump", 2);
+    let unwritten = run(&mut world, &mut Workspace::default(), 10, &mut observers, &stop, |_| {}).unwrap_err();
+    drop(observers);
+    assert!(unwritten.to_string().contains("cannot write full"), "{unwritten}");
+    assert_eq!((unwritten.outcome.end, unwritten.outcome.summary.steps()), (End::Unwritten, 2));
+    assert_eq!([&seen, &failed, &finished].map(|count| count.load(Ordering::Relaxed)), [6, 4, 2]);
+    let names = unwritten.outcome.summary.failed_problems();
+    assert_eq!(names, ["failed-step-1.hdf5", "failed-step-1.hdf5", "failed-step-2.hdf5", "failed-step-2.hdf5"]);
+}
+
+/// Of a problem that is kept: the same number of contacts, and solved by the same method to the same impulses as by the step.
+#[test]
+fn a_kept_problem_is_the_one_that_the_step_failed_on() {
+    let (mut warned, mut dumped) = (hopeless("warn", 2), hopeless("dump", 2));
+    let (mut plain, mut work) = (Workspace::default(), Workspace::default());
+    step(&mut warned, &mut plain).unwrap();
+    step(&mut dumped, &mut work).unwrap();
+    assert_eq!(warned.bodies.velocity, dumped.bodies.velocity, "to keep a problem changes nothing");
+    assert!(plain.take_failed().is_none());
+    let kept = work.take_failed().expect("the solve failed");
+    assert!(kept.step == 1 && work.take_failed().is_none());
+    let problem = kept.problem.expect("friction has a place in files");
+    let impulses: Vec<f64> = work.contacts().iter().flat_map(|c| c.impulse).collect();
+    assert_eq!(problem.guesses[1].r, impulses, "the second guess is where the solve ended");
+    let u = work.contacts().iter().flat_map(|c| (0..3).map(|i| c.after[i] + c.form.shift[i]));
+    assert!(u.zip(&problem.guesses[1].u).all(|(a, b)| (a - b).abs() < 1e-12), "W and q give the velocities of the step");
 }
 
 /// Halves that converge replace the step: more sweeps in all than one solve may take, and the clock as if nothing had been.

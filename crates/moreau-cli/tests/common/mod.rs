@@ -1,6 +1,8 @@
 //! What all tests of the program share: a folder of their own, the program run in it, and scenes.
 #![allow(dead_code, reason = "each test program takes what it needs")]
 
+pub(crate) mod problems;
+
 use assert_cmd::cargo::cargo_bin;
 use std::collections::BTreeMap;
 use std::fs;

@@ -10,7 +10,7 @@
 //! Where M falls apart into bodies, a column of H is solved for in those alone that it touches: columns that share no part of M are
 //! put into one right-hand side, so that there are as many of them as columns meet at one body, and not as many as contacts.
 
-use super::{Bilateral, Csr, Equations, FileError, ProblemFile};
+use super::{Bilateral, Csr, Equations, FileError, ProblemFile, SparseMatrix};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, Lu};
 use faer::sparse::{SparseColMat, Triplet};
@@ -35,16 +35,7 @@ impl ProblemFile {
         self.check()?;
         let (w, q) = match &self.equations {
             Equations::Local { w, q } => (w.csr(), q.clone()),
-            Equations::Global { m, h, f, w, bilateral: None } => reduce(&m.csr(), &h.csr(), f, w, "M")?,
-            Equations::Global { m, h, f, w, bilateral: Some(Bilateral { g, b }) } => {
-                let n = f.len();
-                let size = n + b.len();
-                let border: Vec<_> = g.entries().flat_map(|(i, k, x)| [(i, n + k, x), (n + k, i, x)]).collect();
-                let m = Csr::from_entries(size, size, m.entries().chain(border));
-                let h = Csr::from_entries(size, self.unknowns(), h.entries());
-                let f: Vec<f64> = f.iter().copied().chain(b.iter().map(|b| -b)).collect();
-                reduce(&m, &h, &f, w, "M, bordered by G,")?
-            }
+            Equations::Global { m, h, f, w, bilateral } => reduce(&Motion::new(m, h, f, bilateral.as_ref()), w)?,
         };
         // Entries at one place that are added, and products of huge ones, can overflow.
         match w.values.iter().chain(&q).all(|x| x.is_finite()) {
@@ -54,11 +45,60 @@ impl ProblemFile {
     }
 }
 
-fn reduce(m: &Csr, h: &Csr, f: &[f64], w: &[f64], name: &str) -> Result<(Csr, Vec<f64>), FileError> {
+impl ProblemFile {
+    /// v of M v = H r + f for the impulses `r`, with the constraints kept where there are some; `None` for a local problem.
+    ///
+    /// # Errors
+    ///
+    /// Where the problem fails [`ProblemFile::check`], `r` has not a number for each component, or M (bordered by G) is singular.
+    pub fn velocities(&self, r: &[f64]) -> Result<Option<Vec<f64>>, FileError> {
+        self.check()?;
+        if r.len() != self.unknowns() {
+            return Err(FileError::part("r", format!("{} numbers; {} fit the other parts", r.len(), self.unknowns())));
+        }
+        let Equations::Global { m, h, f, bilateral, .. } = &self.equations else { return Ok(None) };
+        let motion = Motion::new(m, h, f, bilateral.as_ref());
+        let mut side = motion.f;
+        for (i, j, x) in motion.h.entries() {
+            side[i] += x * r[j];
+        }
+        let solver = Solver::new(&motion.m, motion.m.asymmetry() <= ROUNDING, motion.name)?;
+        let v = solver.solve(&[side])?;
+        Ok(Some((0..f.len()).map(|i| v[(i, 0)]).collect()))
+    }
+}
+
+/// M v = H r + f, bordered by the constraints where there are some, with the name of M in messages.
+struct Motion {
+    m: Csr,
+    h: Csr,
+    f: Vec<f64>,
+    name: &'static str,
+}
+
+impl Motion {
+    fn new(m: &SparseMatrix, h: &SparseMatrix, f: &[f64], bilateral: Option<&Bilateral>) -> Self {
+        let Some(Bilateral { g, b }) = bilateral else {
+            return Self { m: m.csr(), h: h.csr(), f: f.to_vec(), name: "M" };
+        };
+        let n = f.len();
+        let size = n + b.len();
+        let border: Vec<_> = g.entries().flat_map(|(i, k, x)| [(i, n + k, x), (n + k, i, x)]).collect();
+        Self {
+            m: Csr::from_entries(size, size, m.entries().chain(border)),
+            h: Csr::from_entries(size, h.columns, h.entries()),
+            f: f.iter().copied().chain(b.iter().map(|b| -b)).collect(),
+            name: "M, bordered by G,",
+        }
+    }
+}
+
+fn reduce(motion: &Motion, w: &[f64]) -> Result<(Csr, Vec<f64>), FileError> {
+    let Motion { m, h, f, name } = motion;
     let symmetric = m.asymmetry() <= ROUNDING;
     let solver = Solver::new(m, symmetric, name)?;
     let mut q = w.to_vec();
-    let free = solver.solve(&[f.to_vec()])?;
+    let free = solver.solve(std::slice::from_ref(f))?;
     for (i, j, x) in h.entries() {
         q[j] += x * free[(i, 0)];
     }

@@ -16,6 +16,8 @@ pub struct Summary {
     scaled_max: f64,
     penetration_max: f64,
     balance_error_max: f64,
+    failed_problems: Vec<String>,
+    refused_problem: Option<String>,
     detect: f64,
     localise: f64,
     solve: f64,
@@ -38,6 +40,26 @@ impl Summary {
         self.localise += record.seconds.localise;
         self.solve += record.seconds.solve;
         self.last = record.clone();
+    }
+
+    /// Adds the name of a file with the problem of a failed solve.
+    pub fn add_failed(&mut self, name: String) {
+        self.failed_problems.push(name);
+    }
+
+    /// Notes why there is no file with the problem of a failed solve; the first reason is kept.
+    pub fn refuse_failed(&mut self, reason: String) {
+        self.refused_problem.get_or_insert(reason);
+    }
+
+    /// The files with problems of failed solves.
+    pub fn failed_problems(&self) -> &[String] {
+        &self.failed_problems
+    }
+
+    /// Why there is no file of the first failed solve of which there could be none.
+    pub fn refused_problem(&self) -> Option<&str> {
+        self.refused_problem.as_deref()
     }
 
     /// Steps done.
@@ -72,6 +94,7 @@ impl Summary {
             "sweeps_mean": self.sweeps_mean(),
             "sweeps_max": self.sweeps_max,
             "unconverged_steps": self.unconverged,
+            "failed_problems": self.failed_problems,
             "eps_glob_max": self.eps_glob_max,
             "scaled_residual_max": self.scaled_max,
             "penetration_max": self.penetration_max,

@@ -1,5 +1,6 @@
 //! The step, on one screen: Moreau-Jean time stepping (section 3 of Barboteu & Dumont 2017; Jean 1999).
 
+use super::failed::{self, FAILED_KEPT, FailedSolve};
 use super::localise::{localise_all, rounding};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
@@ -8,6 +9,7 @@ use super::{StepError, Workspace, forces, integrate};
 use crate::shape::Shape;
 use crate::space::Space;
 use crate::world::{OnFailure, Start, World};
+use moreau_solve::files::ProblemFile;
 use moreau_solve::{Acts, Report, Status};
 use std::time::Instant;
 
@@ -27,6 +29,7 @@ pub fn step<S: Space<D, N>, const D: usize, const N: usize>(
     work: &mut Workspace<S, D, N>,
 ) -> Result<StepRecord, StepError> {
     let started = Instant::now();
+    work.failed.last = None;
     work.ledger.open(energies(&world.bodies, &world.gravity));
     let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.len(), ..StepRecord::default() };
     let end = world.time + world.settings.h;
@@ -69,17 +72,24 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     record.seconds.localise += clock.elapsed().as_secs_f64();
     // 9 impulses
     let clock = Instant::now();
+    let dumps = world.settings.on_failure == OnFailure::Dump && work.failed.count < FAILED_KEPT;
+    if dumps {
+        work.systems.get::<S>(kind).impulses(&mut work.failed.start);
+    }
     let report = work.systems.get::<S>(kind).solve(&world.settings.solver);
     record.seconds.solve += clock.elapsed().as_secs_f64();
     record.sweeps += report.sweeps;
     if report.status != Status::Converged {
+        if dumps {
+            keep_failed(world, work, kind, &report);
+        }
         match world.settings.on_failure {
             OnFailure::Halve if depth < HALVINGS => {
                 work.before.get_or_insert_with(|| Before::of(world, &work.ledger));
                 advance(world, work, record, 0.5 * h, depth + 1)?;
                 return advance(world, work, record, 0.5 * h, depth + 1);
             }
-            OnFailure::Warn if report.status != Status::NotFinite => {}
+            OnFailure::Warn | OnFailure::Dump if report.status != Status::NotFinite => {}
             _ => return Err(unconverged(world.time + h, &report)),
         }
     }
@@ -95,6 +105,20 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     remember(work);
     world.time += h;
     check_finite(world)
+}
+
+/// Keeps the problem whose solve failed.
+fn keep_failed<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    kind: Kind,
+    report: &Report,
+) {
+    let step = world.steps + 1;
+    let info = failed::info(step, world.time + world.settings.h, &world.settings, report);
+    let problem = work.systems.get::<S>(kind).problem(&work.failed.start);
+    work.failed.last = Some(FailedSolve { step, problem: problem.map(|problem| ProblemFile { info, ..problem }) });
+    work.failed.count += 1;
 }
 
 /// Finds the contacts at the predicted configuration.

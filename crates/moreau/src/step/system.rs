@@ -3,10 +3,12 @@
 //! A step without friction needs the normals alone (K = 1), and without friction between round bodies no spin either (L = 4 for two or three). The
 //! equations are the same; only less is stored and read.
 
+use super::failed::with_guesses;
 use super::localise::Rows;
 use crate::bodies::Bodies;
 use crate::space::Space;
-use moreau_solve::{Cone, MatrixFree, Problem, Report, Scratch, Settings, operator::NONE};
+use moreau_solve::files::{FileError, ProblemFile, StoredProblem};
+use moreau_solve::{Cone, Delassus, MatrixFree, Operator, Problem, Report, Scratch, Settings, operator::NONE};
 
 /// One contact problem with its memory.
 pub(super) struct System<const K: usize, const L: usize> {
@@ -74,11 +76,25 @@ pub(super) trait ContactSystem<S: Space<D, N>, const D: usize, const N: usize> {
     /// Finds the impulses.
     fn solve(&mut self, settings: &Settings) -> Report;
 
+    /// The impulses of now, D of each contact.
+    fn impulses(&self, all: &mut Vec<f64>);
+
+    /// The problem, with the impulses from which a solve began and those of now as guesses.
+    ///
+    /// It has D components a contact also where the system keeps the normal alone, since files know no other. The others are zeros
+    /// in W and q then: what the step solved has no tangent, nothing in the answer depends on it, and μ = 0 tells so.
+    fn problem(&self, start: &[f64]) -> Result<ProblemFile, FileError>;
+
     /// Impulse and velocity (without the `shift` of the law) of contact `c`; zeros in the components that the system leaves out.
     fn answer(&self, c: usize, shift: &[f64; D]) -> ([f64; D], [f64; D]);
 
     /// v⁺ = v_free + M⁻¹ H r, in place of v_free: the state of the operator is y = M^{-1/2} H r (eq. 14).
     fn deposit(&self, bodies: &Bodies<S, D, N>, velocity: &mut [[f64; N]]);
+}
+
+/// K components as D, zeros in those that the system leaves out.
+fn widened<const K: usize, const D: usize>(part: &[f64; K]) -> [f64; D] {
+    std::array::from_fn(|i| if i < K { part[i] } else { 0.0 })
 }
 
 impl<S: Space<D, N>, const D: usize, const N: usize, const K: usize, const L: usize> ContactSystem<S, D, N> for System<K, L> {
@@ -105,11 +121,27 @@ impl<S: Space<D, N>, const D: usize, const N: usize, const K: usize, const L: us
         moreau_solve::solve(&problem, settings, &mut self.r, &mut self.scratch)
     }
 
+    fn impulses(&self, all: &mut Vec<f64>) {
+        all.clear();
+        all.extend(self.r.iter().flat_map(widened::<K, D>));
+    }
+
+    fn problem(&self, start: &[f64]) -> Result<ProblemFile, FileError> {
+        let stored = self.operator.stored();
+        let entries = stored
+            .blocks()
+            .flat_map(|(c, d, block)| (0..K * K).map(move |k| (c * D + k / K, d * D + k % K, block[k / K][k % K])));
+        let operator = Delassus::from_entries(self.q.len(), entries);
+        let q: Vec<[f64; D]> = self.q.iter().map(widened).collect();
+        let mut end = Vec::new();
+        ContactSystem::<S, D, N>::impulses(self, &mut end);
+        with_guesses(&StoredProblem { operator, q, cones: self.cones.clone() }, [start, &end])
+    }
+
     fn answer(&self, c: usize, shift: &[f64; D]) -> ([f64; D], [f64; D]) {
         let problem = Problem { operator: &self.operator, q: &self.q, cones: &self.cones };
         let u = problem.velocity(self.scratch.state(), c);
-        let padded = |component: &dyn Fn(usize) -> f64| std::array::from_fn(|i| if i < K { component(i) } else { 0.0 });
-        (padded(&|i| self.r[c][i]), padded(&|i| u[i] - shift[i]))
+        (widened(&self.r[c]), widened::<K, D>(&std::array::from_fn(|i| u[i] - shift[i])))
     }
 
     fn deposit(&self, bodies: &Bodies<S, D, N>, velocity: &mut [[f64; N]]) {

@@ -1,5 +1,6 @@
 //! Scratch of a step: buffers that are written anew each time and kept, and what observers read of the last step.
 
+use super::failed::{Failed, FailedSolve};
 use super::localise::Prepared;
 use super::record::Ledger;
 use super::system::Systems;
@@ -62,6 +63,7 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) systems: Systems<D, N>,
     pub(super) ledger: Ledger,
     pub(super) before: Option<Before<S, D, N>>,
+    pub(super) failed: Failed,
     pub(crate) history: Vec<HistoryRow>,
 }
 
@@ -80,6 +82,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             systems: Systems::default(),
             ledger: Ledger::default(),
             before: None,
+            failed: Failed::default(),
             history: Vec::new(),
         }
     }
@@ -89,6 +92,12 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Workspace<S, D, N> {
     /// The contacts of the last step, sorted by key.
     pub fn contacts(&self) -> &[Localised<D>] {
         &self.contacts
+    }
+
+    /// The problem of the last step, if its solve failed under [`OnFailure::Dump`](crate::world::OnFailure::Dump) and is among the
+    /// first [`FAILED_KEPT`](super::FAILED_KEPT) of this workspace. The next step drops it.
+    pub fn take_failed(&mut self) -> Option<FailedSolve> {
+        self.failed.last.take()
     }
 
     /// Residuals sweep by sweep of the last solve, if the solver's settings ask for them.

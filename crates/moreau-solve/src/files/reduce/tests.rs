@@ -31,6 +31,24 @@ fn a_matrix_that_is_not_definite_or_not_symmetric_is_factorised_too() {
 }
 
 #[test]
+fn velocities_obey_the_equation_of_motion() {
+    let mut problem = global(2, 2, &[(0, 0, 2.0), (1, 1, 4.0)], &[(0, 0, 1.0), (1, 0, -1.0), (1, 1, 8.0)]);
+    // 2 v₀ = r_n + 1 and 4 v₁ = −r_n + 8 r_t + 1.
+    let v = problem.velocities(&[3.0, 0.5]).expect("regular").expect("a global problem");
+    assert!((v[0] - 2.0).abs() < 1e-14 && (v[1] - 0.5).abs() < 1e-14 && v.len() == 2, "{v:?}");
+    assert!(problem.velocities(&[3.0]).expect_err("too short").to_string().starts_with("r: 1 numbers; 2 fit"));
+    // Both held together by v₀ − v₁ + 1 = 0: 6 v₀ = 8 r_t + 2 − 4.
+    if let Equations::Global { bilateral, .. } = &mut problem.equations {
+        *bilateral =
+            Some(Bilateral { g: SparseMatrix::from_entries(2, 1, [(0, 0, 1.0), (1, 0, -1.0)].into_iter()), b: vec![1.0] });
+    }
+    let v = problem.velocities(&[3.0, 0.5]).expect("regular").expect("a global problem");
+    assert!((v[0] - 1.0 / 3.0).abs() < 1e-14 && (v[1] - 4.0 / 3.0).abs() < 1e-14 && v.len() == 2, "{v:?}");
+    let (_, q) = problem.local().expect("regular");
+    assert_eq!(q.len(), 2);
+}
+
+#[test]
 fn a_singular_matrix_is_named() {
     let h = [(0, 0, 1.0), (1, 1, 1.0)];
     let third = 1.0 / 3.0;
