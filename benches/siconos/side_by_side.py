@@ -85,7 +85,7 @@ def main():
     print("# moreau beside Siconos\n")
     print(f"{machine()}, one thread each; Siconos {known['versions'].get('siconos', '?')} of Debian's python3-siconos. "
           "Times in milliseconds, of the solve alone. Both residuals, scaled and Siconos's own, are at most the tolerance. "
-          "Made by benches/siconos/run.sh.\n")
+          f"At most {given.seconds:g} s a solve. Made by benches/siconos/run.sh.\n")
     print("| problem | D | contacts | tolerance | best of Siconos | ms | best of moreau | ms | ratio | ratio of auto |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     print("\n".join(lines))
