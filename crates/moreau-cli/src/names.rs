@@ -2,12 +2,9 @@
 
 use moreau::solve::{Criterion, GlobalMethod, LocalMethod};
 
-/// The global solver of the commands that solve problem files: the first of these that there is.
-const GLOBAL: &[&str] = &["auto", "accelerated"];
-
 /// The global solver of problem files where none is named.
 pub(crate) fn default_global() -> &'static str {
-    GLOBAL.iter().copied().find(|name| GlobalMethod::from_name(name).is_some()).unwrap_or(GlobalMethod::default().name())
+    GlobalMethod::Auto.name()
 }
 
 pub(crate) fn local(name: &str) -> Result<LocalMethod, String> {
