@@ -3,7 +3,7 @@
 //! A step takes all contacts together: r ← P_K(r − t û/w), with the w_c of the scaled residual in the place of a mass. So a step
 //! has no unit, t is near one, and a problem in millimetres takes the steps of one in metres.
 
-use super::Work;
+use super::{Work, keep};
 use crate::block::{Vector, dot};
 use crate::residual::mean_diagonal;
 use crate::{Operator, Problem, Status};
@@ -52,8 +52,7 @@ pub(super) struct Best {
 impl Best {
     /// Knows nothing of the first guess but its impulses.
     pub(super) fn new<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Self {
-        work.scratch.best.clear();
-        work.scratch.best.extend_from_slice(work.r);
+        keep(&mut work.scratch.best, work.r);
         Self { error: f64::INFINITY }
     }
 
@@ -63,7 +62,7 @@ impl Best {
         let status = work.after_sweep();
         if work.judge.measured_at == work.judge.sweeps && work.judge.error < self.error {
             self.error = work.judge.error;
-            work.scratch.best.copy_from_slice(work.r);
+            keep(&mut work.scratch.best, work.r);
         }
         status.map(|status| self.end(work, status))
     }

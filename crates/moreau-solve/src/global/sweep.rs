@@ -1,7 +1,7 @@
 //! What all methods of Gauss-Seidel's kind share: the visit of a contact, and a plain sweep over all of them.
 
 use super::Work;
-use crate::block::{Matrix, Vector, axpy, sub};
+use crate::block::{Matrix, Vector, axpy, sub, velocity_after};
 use crate::local::{LocalSolver, Visit};
 use crate::{Cone, Operator};
 
@@ -62,6 +62,6 @@ pub(super) fn visit<L: LocalSolver, const D: usize>(
 /// Over-relaxation: P_K(r + ω (r⁺ − r)), with the velocity that the equation of motion then gives.
 #[inline]
 fn relaxed<const D: usize>(omega: f64, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>, visit: &Visit<D>) -> Visit<D> {
-    let (r_new, _) = cone.project(&axpy(r, omega, &sub(&visit.r, r)));
-    Visit { r: r_new, u: crate::block::velocity_after(w, u, r, &r_new), converged: visit.converged }
+    let r_new = cone.nearest(&axpy(r, omega, &sub(&visit.r, r)));
+    Visit { r: r_new, u: velocity_after(w, u, r, &r_new), converged: visit.converged }
 }
