@@ -14,8 +14,12 @@
 //! multilevel algorithm for contact detection of arbitrarily polydisperse objects, Comput. Phys. Commun. 183 (2012).
 
 mod level;
+mod search;
 
+use super::{CHUNK, is_shared};
 use level::{LEVELS, Level, rank};
+use rayon::prelude::*;
+use search::Search;
 
 /// A ball around a body, of its reach included.
 #[derive(Clone, Copy, Debug)]
@@ -48,29 +52,44 @@ pub(super) struct Grid<const D: usize> {
     balls: Vec<Ball<D>>,
     bodies: Vec<u32>,
     buckets: Vec<u32>,
-    hits: Hits,
+    /// Scratch, one for each chunk of balls where threads share them, else one alone.
+    searches: Vec<Search>,
 }
 
 impl<const D: usize> Grid<D> {
-    /// Hands over every pair of bodies whose balls overlap or touch, in no particular order, some more than once.
-    pub(super) fn pairs(&mut self, spheres: &[Sphere<D>], found: &mut impl FnMut(u32, u32)) {
+    /// Hands over every pair of bodies that is `wanted` and whose balls overlap or touch, in no particular order, some more than
+    /// once.
+    pub(super) fn pairs(
+        &mut self,
+        spheres: &[Sphere<D>],
+        wanted: impl Fn(u32, u32) -> bool + Sync,
+        found: &mut impl FnMut(u32, u32),
+    ) {
         self.build(spheres);
-        let mut hits = std::mem::take(&mut self.hits);
-        for (depth, level) in self.levels.iter().enumerate() {
-            let first = self.starts[level.table as usize] as usize;
-            let last = self.starts[(level.table + level.mask) as usize + 1] as usize;
-            for ball in first..last {
-                hits.count = 0;
-                self.within(level, ball, &mut hits);
-                for coarser in &self.levels[..depth] {
-                    self.above(coarser, ball, &mut hits);
+        let count = spheres.len();
+        let mut searches = std::mem::take(&mut self.searches);
+        if is_shared(count) {
+            searches.resize_with(count.div_ceil(CHUNK).max(searches.len()), Search::default);
+            searches.par_iter_mut().enumerate().for_each(|(chunk, search)| {
+                let Search { hits, pairs } = search;
+                pairs.clear();
+                let balls = (chunk * CHUNK).min(count)..((chunk + 1) * CHUNK).min(count);
+                self.search(balls, hits, |a, b| {
+                    if wanted(a, b) {
+                        pairs.push((a, b));
+                    }
+                });
+            });
+            searches.iter().flat_map(|search| &search.pairs).for_each(|&(a, b)| found(a, b));
+        } else {
+            searches.resize_with(searches.len().max(1), Search::default);
+            self.search(0..count, &mut searches[0].hits, |a, b| {
+                if wanted(a, b) {
+                    found(a, b);
                 }
-                for &other in hits.list[..hits.count].iter().filter(|&&other| other as usize != ball) {
-                    found(self.bodies[ball], self.bodies[other as usize]);
-                }
-            }
+            });
         }
-        self.hits = hits;
+        self.searches = searches;
     }
 
     /// Sorts the balls by level and bucket.
@@ -122,90 +141,6 @@ impl<const D: usize> Grid<D> {
             self.bodies[place] = sphere.body;
             self.buckets[place] = bucket;
         }
-    }
-
-    /// A ball against those of its own level: the rest of its cell, the next cell of its column, and half the columns around.
-    #[inline]
-    fn within(&self, level: &Level<D>, ball: usize, hits: &mut Hits) {
-        let home = self.buckets[ball] - level.table;
-        self.scan(ball, ball + 1, self.starts[(level.table + home) as usize + 1] as usize, hits);
-        self.scan_run(level, ball, home.wrapping_add(1), 1, hits);
-        for &offset in level.columns() {
-            self.scan_run(level, ball, home.wrapping_add(offset), 3, hits);
-        }
-    }
-
-    /// A ball against those of a coarser level, in the cells where a centre may be in range.
-    #[inline]
-    fn above(&self, level: &Level<D>, ball: usize, hits: &mut Hits) {
-        let Ball { centre, radius } = self.balls[ball];
-        let range = radius + level.half_cell;
-        let low = level.cell(centre.map(|x| x - range));
-        let high = level.cell(centre.map(|x| x + range));
-        let run = (high[D - 1] - low[D - 1] + 1) as u32;
-        // An odometer over all axes but the last, which the run covers.
-        let mut cell = low;
-        loop {
-            self.scan_run(level, ball, level.bucket(cell), run, hits);
-            let Some(axis) = (0..D - 1).find(|&axis| cell[axis] < high[axis]) else { break };
-            cell[axis] += 1;
-            cell[..axis].copy_from_slice(&low[..axis]);
-        }
-    }
-
-    /// A ball against `run` consecutive buckets of a table, which closes on itself.
-    #[inline]
-    fn scan_run(&self, level: &Level<D>, ball: usize, bucket: u32, run: u32, hits: &mut Hits) {
-        let first = bucket & level.mask;
-        let end = first + run;
-        let start_of = |bucket: u32| self.starts[(level.table + bucket) as usize] as usize;
-        self.scan(ball, start_of(first), start_of(end.min(level.mask + 1)), hits);
-        if end > level.mask + 1 {
-            self.scan(ball, start_of(0), start_of(end - level.mask - 1), hits);
-        }
-    }
-
-    /// A ball against a stretch of the sorted balls.
-    #[inline]
-    fn scan(&self, ball: usize, first: usize, last: usize, hits: &mut Hits) {
-        if first == last {
-            return;
-        }
-        let Ball { centre, radius } = self.balls[ball];
-        let stretch = &self.balls[first..last];
-        let room = hits.room(stretch.len());
-        let mut count = 0;
-        for (other, candidate) in (first as u32..).zip(stretch) {
-            let mut square = 0.0;
-            for k in 0..D {
-                let between = candidate.centre[k] - centre[k];
-                square += between * between;
-            }
-            let sum = candidate.radius + radius;
-            room[count] = other;
-            count += usize::from(square <= sum * sum);
-        }
-        hits.count += count;
-    }
-}
-
-/// What a ball has hit. A hit is written before it is known and counted after: the test is a toss of a coin, and a branch on it
-/// would cost more than all the rest.
-#[derive(Clone, Debug, Default)]
-struct Hits {
-    list: Vec<u32>,
-    count: usize,
-}
-
-impl Hits {
-    /// The place for so many more.
-    #[inline]
-    fn room(&mut self, more: usize) -> &mut [u32] {
-        let end = self.count + more;
-        if self.list.len() < end {
-            self.list.resize(end, 0);
-        }
-        &mut self.list[self.count..end]
     }
 }
 

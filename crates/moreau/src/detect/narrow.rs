@@ -43,3 +43,5 @@ mod common;
 pub(crate) mod plane;
 pub(crate) mod solid;
 mod vector;
+
+pub(super) use common::two_round;

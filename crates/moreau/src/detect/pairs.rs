@@ -19,13 +19,17 @@ impl Pairs {
         self.found.push((a.min(b), a.max(b)));
     }
 
-    /// The pairs of `bodies` bodies, lower index first, ascending, each once.
-    pub(super) fn sorted(&mut self, bodies: usize) -> impl Iterator<Item = (u32, u32)> + '_ {
+    /// Brings the pairs of `bodies` bodies into their order, lower index first, ascending, and drops repetitions.
+    pub(super) fn sort(&mut self, bodies: usize) {
         self.spare.resize(self.found.len(), (0, 0));
         counting_sort(&self.found, &mut self.spare, &mut self.starts, bodies, |pair| pair.1);
         counting_sort(&self.spare, &mut self.found, &mut self.starts, bodies, |pair| pair.0);
-        let before = std::iter::once(None).chain(self.found.iter().map(Some));
-        self.found.iter().zip(before).filter(|&(pair, before)| Some(pair) != before).map(|(&pair, _)| pair)
+        self.found.dedup();
+    }
+
+    /// The pairs as they stand.
+    pub(super) fn list(&self) -> &[(u32, u32)] {
+        &self.found
     }
 }
 
@@ -62,8 +66,10 @@ mod tests {
         for (a, b) in [(3, 1), (0, 2), (1, 3), (2, 1), (0, 1), (2, 0)] {
             pairs.push(a, b);
         }
-        assert_eq!(pairs.sorted(4).collect::<Vec<_>>(), [(0, 1), (0, 2), (1, 2), (1, 3)]);
+        pairs.sort(4);
+        assert_eq!(pairs.list(), [(0, 1), (0, 2), (1, 2), (1, 3)]);
         pairs.clear();
-        assert_eq!(pairs.sorted(0).count(), 0);
+        pairs.sort(0);
+        assert!(pairs.list().is_empty());
     }
 }

@@ -1,5 +1,10 @@
+mod moving;
+mod settled;
+
 use super::broad::tests::Dice;
 use super::*;
+use crate::contacts::ContactKey;
+use crate::shape::Shape;
 use crate::shape::plane::{Disk, HalfPlane, Polygon};
 use crate::shape::solid::{Ball, Cuboid, HalfSpace};
 use crate::shape::{PlaneShape, SolidShape};
@@ -127,7 +132,7 @@ fn bodies_that_are_nowhere_or_reach_everywhere_do_no_harm() {
 }
 
 #[test]
-fn a_detector_keeps_nothing_from_call_to_call_but_memory() {
+fn what_a_detector_keeps_from_call_to_call_changes_nothing() {
     let mut detector = Detector::<2>::new();
     let mut out = Vec::new();
     for (seed, count) in [(1, 300), (2, 900), (3, 0), (4, 50)] {

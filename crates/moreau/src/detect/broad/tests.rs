@@ -12,7 +12,7 @@ impl Dice {
 
 fn grid_pairs<const D: usize>(grid: &mut Grid<D>, spheres: &[Sphere<D>]) -> Vec<(u32, u32)> {
     let mut pairs = Vec::new();
-    grid.pairs(spheres, &mut |a, b| pairs.push((a.min(b), a.max(b))));
+    grid.pairs(spheres, |_, _| true, &mut |a, b| pairs.push((a.min(b), a.max(b))));
     pairs.sort_unstable();
     pairs.dedup();
     pairs
@@ -106,7 +106,7 @@ fn work_is_linear_whatever_flies_off() {
         spheres[far].centre = [1e12 * (far + 1) as f64, -1e12, 1e12];
     }
     let mut handed = 0;
-    grid.pairs(&spheres, &mut |_, _| handed += 1);
+    grid.pairs(&spheres, |_, _| true, &mut |_, _| handed += 1);
     let exact = all_pairs(&spheres).len();
     assert!(handed >= exact && handed < exact + exact / 2, "{handed} for {exact}");
     assert!(grid.starts.len() <= 4 * spheres.len() + 1);

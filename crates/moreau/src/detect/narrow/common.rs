@@ -4,7 +4,7 @@ use super::vector::{NO_DIRECTION, along, dot, sub};
 
 /// Two round bodies (centre, radius). Where the centres coincide every direction is as good as another; the last axis is taken.
 #[inline]
-pub(super) fn two_round<const D: usize>(
+pub(in crate::detect) fn two_round<const D: usize>(
     (centre_a, radius_a): ([f64; D], f64),
     (centre_b, radius_b): ([f64; D], f64),
     reach: f64,
