@@ -2,6 +2,7 @@
 //!
 //! A [`Frame`] is a borrowed view of the world after a step. Adding an output is a file, and a row in [`OUTPUTS`].
 
+mod background;
 mod failed;
 mod steps;
 mod summary;
@@ -61,10 +62,10 @@ impl OutputError {
 
 /// Someone who looks at every step.
 pub trait Observer<S: Space<D, N>, const D: usize, const N: usize>: Send {
-    /// Sees one frame.
+    /// Sees one frame. Who writes much copies what is needed and writes it elsewhere: the next step begins when this returns.
     ///
     /// # Errors
-    /// Where what it writes cannot be written.
+    /// Where what it writes cannot be written, or could not since it was asked last.
     fn see(&mut self, frame: &Frame<'_, S, D, N>) -> Result<(), OutputError>;
 
     /// Sees the problem of a step whose solve failed under the policy `dump`; returns the name of the file that it makes of it, if it

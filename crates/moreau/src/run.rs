@@ -16,7 +16,7 @@ pub enum End {
     Interrupted,
     /// A step could not be done; those before it stand.
     Failed(StepError),
-    /// An observer could not write; the steps before stand.
+    /// An observer could not write; the steps done until it said so stand.
     Unwritten,
 }
 
@@ -29,7 +29,7 @@ pub struct Outcome {
     pub summary: Summary,
     /// Wall-clock seconds of all of it.
     pub seconds_total: f64,
-    /// Of these, in observers.
+    /// Of these, in observers: what the run waited for. An observer may go on with its files beside the steps.
     pub seconds_output: f64,
 }
 
@@ -85,10 +85,10 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
             }
         }
     }
+    audience.finish();
     if audience.error.is_some() && end == End::Done {
         end = End::Unwritten;
     }
-    audience.finish();
     let Audience { error, seconds: seconds_output, .. } = audience;
     let outcome = Outcome { end, summary, seconds_total: started.elapsed().as_secs_f64(), seconds_output };
     match error {

@@ -1,7 +1,7 @@
 //! ParaView's XML PolyData files (`.vtp`) and the collections that give them their times (`.pvd`).
 //!
-//! A [`PolyData`] borrows what the caller already has (points, flat arrays) and [`write()`] puts it into one file; a
-//! [`Series`] names the files of a run with their times. Both appear whole or not at all: they are written beside their
+//! A [`PolyData`] borrows what the caller already has (points, flat arrays) and [`write()`] puts it into one file, or a
+//! [`Writer`] one after the other into many; a [`Series`] names the files of a run with their times. Files of both kinds appear whole or not at all: they are written beside their
 //! place and renamed, so a reader that looks while the run goes on never meets half a file.
 //!
 //! The layout is the one that VTK reads fastest: an XML head that can be read with `head`, then one `AppendedData`
@@ -32,6 +32,7 @@ mod array;
 mod check;
 mod error;
 mod file;
+mod noise;
 mod series;
 #[cfg(test)]
 mod tests;
@@ -85,44 +86,65 @@ impl PolyData<'_> {
 /// The data do not fit together (lengths, indices, names, time), in which case nothing is written, or the file cannot
 /// be written. Every error names `path`.
 pub fn write(path: &Path, data: &PolyData) -> Result<(), VtkError> {
-    check::poly_data(path, data)?;
-    let (head, body) = render(data).map_err(|source| VtkError::io(path, source))?;
-    file::replace(path, &[head.as_bytes(), body.bytes(), b"\n  </AppendedData>\n</VTKFile>\n"])
+    Writer::default().write(path, data)
 }
 
-/// The XML up to and with the underscore that opens the appended section, and that section.
+/// Writes the files of a series, all of the same arrays; what one of them has in common with the one before costs little.
 ///
-/// The arrays are compressed first because the head must state where each of them starts.
-fn render(data: &PolyData) -> std::io::Result<(String, Appended)> {
-    let mut body = Appended::default();
-    let mut x = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" ");
-    x += "byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PolyData>\n";
+/// The files are those that [`write()`] makes, byte for byte. A writer keeps its buffers, and with them the arrays of the last file.
+#[derive(Debug, Default)]
+pub struct Writer {
+    head: String,
+    body: Appended,
+}
 
-    let time = [data.time];
-    x += "    <FieldData>\n";
-    array(&mut x, &mut body, &Array::scalars("TimeValue", &time), " NumberOfTuples=\"1\"")?;
-    x += "    </FieldData>\n";
-
-    let (points, verts, polys) = (data.points.len(), data.vert_count(), data.polys.len());
-    let _ = writeln!(x, "    <Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfPolys=\"{polys}\">");
-    for (tag, arrays) in [("PointData", &data.point_data), ("CellData", &data.cell_data)] {
-        let _ = writeln!(x, "      <{tag}>");
-        for a in arrays {
-            array(&mut x, &mut body, a, "")?;
-        }
-        let _ = writeln!(x, "      </{tag}>");
+impl Writer {
+    /// Writes one `.vtp` file, replacing what stood at `path`.
+    ///
+    /// # Errors
+    /// As for [`write()`].
+    pub fn write(&mut self, path: &Path, data: &PolyData) -> Result<(), VtkError> {
+        check::poly_data(path, data)?;
+        self.render(data).map_err(|source| VtkError::io(path, source))?;
+        file::replace(path, &[self.head.as_bytes(), self.body.bytes(), b"\n  </AppendedData>\n</VTKFile>\n"])
     }
-    x += "      <Points>\n";
-    array(&mut x, &mut body, &Array::vectors("Points", data.points), "")?;
-    x += "      </Points>\n";
-    cells(&mut x, &mut body, "Verts", 0..verts, 1..=verts)?;
-    let ends = data.polys.iter().scan(0, |end, polygon| {
-        *end += polygon.len();
-        Some(*end)
-    });
-    cells(&mut x, &mut body, "Polys", data.polys.iter().flatten().copied(), ends)?;
-    x += "    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n   _";
-    Ok((x, body))
+
+    /// The XML up to and with the underscore that opens the appended section, and that section.
+    ///
+    /// The arrays are compressed first because the head must state where each of them starts.
+    fn render(&mut self, data: &PolyData) -> std::io::Result<()> {
+        let Self { head: x, body } = self;
+        x.clear();
+        body.clear();
+        *x += "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" ";
+        *x += "byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PolyData>\n";
+
+        let time = [data.time];
+        *x += "    <FieldData>\n";
+        array(x, body, &Array::scalars("TimeValue", &time), " NumberOfTuples=\"1\"")?;
+        *x += "    </FieldData>\n";
+
+        let (points, verts, polys) = (data.points.len(), data.vert_count(), data.polys.len());
+        let _ = writeln!(x, "    <Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfPolys=\"{polys}\">");
+        for (tag, arrays) in [("PointData", &data.point_data), ("CellData", &data.cell_data)] {
+            let _ = writeln!(x, "      <{tag}>");
+            for a in arrays {
+                array(x, body, a, "")?;
+            }
+            let _ = writeln!(x, "      </{tag}>");
+        }
+        *x += "      <Points>\n";
+        array(x, body, &Array::vectors("Points", data.points), "")?;
+        *x += "      </Points>\n";
+        cells(x, body, "Verts", 0..verts, 1..=verts)?;
+        let ends = data.polys.iter().scan(0, |end, polygon| {
+            *end += polygon.len();
+            Some(*end)
+        });
+        cells(x, body, "Polys", data.polys.iter().flatten().copied(), ends)?;
+        *x += "    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n   _";
+        Ok(())
+    }
 }
 
 /// One `DataArray` of the caller's.

@@ -3,8 +3,9 @@
 use super::{Frame, Observer, OutputError};
 use crate::space::Space;
 use crate::step::StepRecord;
+use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 /// The columns, in order.
@@ -17,6 +18,8 @@ const HEADER: &str = "step,time,bodies,contacts,active,sweeps,converged,eps_moti
 pub struct StepsCsv {
     path: PathBuf,
     file: BufWriter<File>,
+    /// The row at hand.
+    row: String,
 }
 
 impl StepsCsv {
@@ -26,21 +29,22 @@ impl StepsCsv {
     /// Where it cannot be created.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         let file = File::create(path).map_err(OutputError::io(path))?;
-        let mut steps = Self { path: path.to_owned(), file: BufWriter::new(file) };
-        steps.line(HEADER)?;
+        let mut steps = Self { path: path.to_owned(), file: BufWriter::new(file), row: format!("{HEADER}\n") };
+        steps.put()?;
         Ok(steps)
     }
 
-    fn line(&mut self, line: &str) -> Result<(), OutputError> {
-        writeln!(self.file, "{line}").map_err(OutputError::io(&self.path))
+    /// Writes the row at hand; the file has it when some more have come, or at the end.
+    fn put(&mut self) -> Result<(), OutputError> {
+        self.file.write_all(self.row.as_bytes()).map_err(OutputError::io(&self.path))
     }
 }
 
-/// One row.
-fn row(r: &StepRecord) -> String {
+/// Puts one row in place of what is in `row`.
+fn format(row: &mut String, r: &StepRecord) -> std::fmt::Result {
     let (eps, energy, seconds) = (&r.residual.eps_glob, &r.energy, &r.seconds);
-    let counts =
-        format!("{},{:e},{},{},{},{},{}", r.step, r.time, r.bodies, r.contacts, r.active, r.sweeps, u8::from(r.converged()));
+    row.clear();
+    write!(row, "{},{:e},{},{},{},{},{}", r.step, r.time, r.bodies, r.contacts, r.active, r.sweeps, u8::from(r.converged()))?;
     let numbers = [
         eps.motion,
         eps.bipotential,
@@ -54,15 +58,18 @@ fn row(r: &StepRecord) -> String {
         energy.dissipated,
         energy.balance_error,
     ];
+    numbers.iter().try_for_each(|x| write!(row, ",{x:e}"))?;
     let seconds = [seconds.detect, seconds.localise, seconds.solve, seconds.step];
-    let exact = numbers.iter().map(|x| format!(",{x:e}"));
-    let rough = seconds.iter().map(|x| format!(",{x:.3e}"));
-    std::iter::once(counts).chain(exact).chain(rough).collect()
+    seconds.iter().try_for_each(|x| write!(row, ",{x:.3e}"))?;
+    writeln!(row)
 }
 
 impl<S: Space<D, N>, const D: usize, const N: usize> Observer<S, D, N> for StepsCsv {
     fn see(&mut self, frame: &Frame<'_, S, D, N>) -> Result<(), OutputError> {
-        frame.record.map_or(Ok(()), |record| self.line(&row(record)))
+        let Some(record) = frame.record else { return Ok(()) };
+        // A string takes all that is formatted.
+        let _ = format(&mut self.row, record);
+        self.put()
     }
 
     fn finish(&mut self) -> Result<(), OutputError> {

@@ -11,9 +11,9 @@ const TAIL: &str = "  </Collection>\n</VTKFile>\n";
 
 /// The frames of a run so far, and the `.pvd` file that lists them.
 ///
-/// Save it after each frame, once the frame's own file is there: the list on disk is then always complete, whether the
-/// run goes on or was killed. The text of the entries is kept, so a save is one write of about 70 bytes a frame and
-/// nothing is formatted twice.
+/// Push a frame once its own file is there: the list on disk then names nothing that is not. Where frames come fast, save now and
+/// then and at the end rather than after each: a save writes the whole list, about 70 bytes a frame, and puts it in the place of
+/// another file, for which some file systems wait for the disk. The text of the entries is kept, so nothing is formatted twice.
 #[derive(Clone, Debug)]
 pub struct Series {
     path: PathBuf,

@@ -7,7 +7,7 @@ use std::path::Path;
 use flate2::read::ZlibDecoder;
 
 use super::appended::BLOCK;
-use super::{Array, PolyData, Series, Values, VtkError, write};
+use super::{Array, PolyData, Series, Values, VtkError, Writer, write};
 
 /// A file taken apart: its XML head, and the appended bytes behind the underscore.
 struct Parts {
@@ -109,6 +109,26 @@ fn every_number_comes_back() {
     assert_eq!(parts.bytes("PointData", "flags"), flags);
     assert_eq!(parts.i64s("Verts", "connectivity"), (0..n as i64).collect::<Vec<_>>());
     assert_eq!(parts.i64s("Verts", "offsets"), (1..=n as i64).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_writer_makes_of_each_frame_the_file_that_it_would_be_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let (ours, alone) = (folder.path().join("a.vtp"), folder.path().join("b.vtp"));
+    let mut writer = Writer::default();
+    // Some arrays stay as they are, some change, some grow and shrink, one is there now and then, and some data are refused.
+    for (frame, n) in [(0, 2000), (1, 2000), (2, 20_000), (3, 1), (4, 0), (5, 2000), (5, 2000)] {
+        let points: Vec<[f64; 3]> = (0..n).map(|i| [(0.7 * f64::from(i)).sin(), f64::from(frame), 1.0]).collect();
+        let (radius, id): (Vec<f64>, Vec<i64>) = (0..n).map(|i| (f64::from(i).sqrt(), i64::from(i))).unzip();
+        let mut point_data = vec![Array::scalars("radius", &radius), Array::scalars("id", &id)];
+        point_data.truncate(if frame == 3 { 1 } else { 2 });
+        let data = PolyData { points: &points, point_data, time: f64::from(frame), ..PolyData::default() };
+        assert!(writer.write(&ours, &PolyData { time: f64::NAN, ..data.clone() }).is_err());
+        writer.write(&ours, &data).unwrap();
+        write(&alone, &data).unwrap();
+        assert!(fs::read(&ours).unwrap() == fs::read(&alone).unwrap(), "frame {frame}");
+        assert_eq!(Parts::read(&ours).f64s("Points", "Points"), points.as_flattened());
+    }
 }
 
 #[test]

@@ -1,0 +1,75 @@
+//! The files of `vtk/`, one frame after the other.
+
+use super::snapshot::Snapshot;
+use crate::io::vtk::{PolyData, Series, Writer};
+use crate::observe::{OutputError, background};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// How often collections are saved while frames come: each save costs as much as a frame of some hundred bodies.
+const SAVED_EVERY: Duration = Duration::from_secs(1);
+
+/// All of them.
+#[derive(Debug)]
+pub(super) struct Files {
+    bodies: Kind,
+    contacts: Kind,
+    saved: Option<Instant>,
+}
+
+impl Files {
+    /// Those of `folder`.
+    pub(super) fn new(folder: &Path) -> Self {
+        Self { bodies: Kind::new(folder, "bodies"), contacts: Kind::new(folder, "contacts"), saved: None }
+    }
+}
+
+impl background::Writer<Snapshot> for Files {
+    fn write(&mut self, frame: &Snapshot) -> Result<(), OutputError> {
+        self.bodies.write(frame.step, &frame.bodies())?;
+        self.contacts.write(frame.step, &frame.contacts())?;
+        if self.saved.is_none_or(|saved| saved.elapsed() >= SAVED_EVERY) {
+            self.catch_up()?;
+        }
+        Ok(())
+    }
+
+    fn catch_up(&mut self) -> Result<(), OutputError> {
+        self.saved = Some(Instant::now());
+        self.bodies.save()?;
+        self.contacts.save()
+    }
+}
+
+/// The files `NAME_STEP.vtp` and the collection `NAME.pvd`.
+#[derive(Debug)]
+struct Kind {
+    folder: PathBuf,
+    name: &'static str,
+    writer: Writer,
+    series: Series,
+    /// How many frames the collection on disk names.
+    saved: usize,
+}
+
+impl Kind {
+    fn new(folder: &Path, name: &'static str) -> Self {
+        let series = Series::new(folder.join(name).with_extension("pvd"));
+        Self { folder: folder.to_owned(), name, writer: Writer::default(), series, saved: 0 }
+    }
+
+    fn write(&mut self, step: u64, data: &PolyData) -> Result<(), OutputError> {
+        let file = format!("{}_{step:08}.vtp", self.name);
+        self.writer.write(&self.folder.join(&file), data)?;
+        Ok(self.series.push(data.time, &file)?)
+    }
+
+    /// Saves the collection, if it is not what is on the disk.
+    fn save(&mut self) -> Result<(), OutputError> {
+        if self.saved < self.series.len() {
+            self.series.save()?;
+            self.saved = self.series.len();
+        }
+        Ok(())
+    }
+}

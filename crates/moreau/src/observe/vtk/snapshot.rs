@@ -1,0 +1,147 @@
+//! What a frame's files say, apart from the world that it was taken of.
+
+use crate::io::vtk::{Array, PolyData};
+use crate::observe::Frame;
+use crate::shape::Shape;
+use crate::space::Space;
+use crate::step::Localised;
+use moreau_solve::Cone;
+use moreau_solve::block::tangent_norm;
+
+/// The arrays of one frame.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Snapshot {
+    /// The number of the step.
+    pub(super) step: u64,
+    /// Its time, s.
+    pub(super) time: f64,
+    bodies: Bodies,
+    contacts: Contacts,
+}
+
+/// A row a body.
+#[derive(Clone, Debug, Default)]
+struct Bodies {
+    points: Vec<[f64; 3]>,
+    velocity: Vec<[f64; 3]>,
+    spin: Vec<[f64; 3]>,
+    orientation: Vec<[f64; 4]>,
+    radius: Vec<f64>,
+    mass: Vec<f64>,
+    material: Vec<i32>,
+    id: Vec<i64>,
+}
+
+/// A row a contact.
+#[derive(Clone, Debug, Default)]
+struct Contacts {
+    points: Vec<[f64; 3]>,
+    normal: Vec<[f64; 3]>,
+    impulse: Vec<[f64; 3]>,
+    gap: Vec<f64>,
+    normal_impulse: Vec<f64>,
+    status: Vec<i32>,
+    pairs: Vec<[i64; 2]>,
+}
+
+/// Status of a contact in the files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum ContactStatus {
+    /// No impulse.
+    Open = 0,
+    /// Pressed, without slip, or without friction at all.
+    Sticking = 1,
+    /// Pressed, on the edge of Coulomb's cone.
+    Sliding = 2,
+}
+
+impl Snapshot {
+    /// Takes over what the files say of `frame`.
+    pub(super) fn take<S: Space<D, N>, const D: usize, const N: usize>(&mut self, frame: &Frame<'_, S, D, N>) {
+        (self.step, self.time) = (frame.world.steps, frame.world.time);
+        self.take_bodies(frame);
+        self.take_contacts(frame.contacts);
+    }
+
+    fn take_bodies<S: Space<D, N>, const D: usize, const N: usize>(&mut self, frame: &Frame<'_, S, D, N>) {
+        let (bodies, to) = (&frame.world.bodies, &mut self.bodies);
+        let all = 0..bodies.len();
+        refill(&mut to.points, bodies.pose.iter().map(|pose| space_vector(&pose.position)));
+        refill(&mut to.velocity, bodies.velocity.iter().map(|v| space_vector(&v[..D])));
+        refill(&mut to.spin, all.clone().map(|i| S::spin_in_world(bodies.pose[i].rotation, &bodies.velocity[i])));
+        refill(&mut to.orientation, bodies.pose.iter().map(|pose| S::quaternion(pose.rotation)));
+        // A half-space has no end: it is a point of its boundary with radius zero, which ParaView's glyphs leave out.
+        refill(&mut to.radius, bodies.shape.iter().map(|shape| shape.bounding_radius().unwrap_or(0.0)));
+        // A driven body yields to nothing.
+        let weighed = |i: usize| if bodies.is_free(i) { bodies.mass[i][0] } else { f64::INFINITY };
+        refill(&mut to.mass, all.clone().map(weighed));
+        refill(&mut to.material, bodies.material.iter().map(|&material| i32::from(material)));
+        refill(&mut to.id, all.map(|i| i as i64));
+    }
+
+    fn take_contacts<const D: usize>(&mut self, contacts: &[Localised<D>]) {
+        let to = &mut self.contacts;
+        refill(&mut to.points, contacts.iter().map(|c| space_vector(&c.contact.point)));
+        refill(&mut to.normal, contacts.iter().map(|c| space_vector(&c.contact.normal)));
+        refill(&mut to.impulse, contacts.iter().map(|c| space_vector(&in_world(c))));
+        refill(&mut to.gap, contacts.iter().map(|c| c.contact.gap));
+        refill(&mut to.normal_impulse, contacts.iter().map(|c| c.impulse[0]));
+        refill(&mut to.status, contacts.iter().map(|c| status(c) as i32));
+        refill(&mut to.pairs, contacts.iter().map(|c| [i64::from(c.contact.key.a), i64::from(c.contact.key.b)]));
+    }
+
+    /// The file of bodies.
+    pub(super) fn bodies(&self) -> PolyData<'_> {
+        let Bodies { points, velocity, spin, orientation, radius, mass, material, id } = &self.bodies;
+        let point_data = vec![
+            Array::scalars("radius", radius),
+            Array::vectors("velocity", velocity),
+            Array::vectors("spin", spin),
+            Array { name: "orientation", components: 4, values: orientation.as_flattened().into() },
+            Array::scalars("mass", mass),
+            Array::scalars("material", material),
+            Array::scalars("id", id),
+        ];
+        PolyData { points, point_data, time: self.time, ..PolyData::default() }
+    }
+
+    /// The file of contacts.
+    pub(super) fn contacts(&self) -> PolyData<'_> {
+        let Contacts { points, normal, impulse, gap, normal_impulse, status, pairs } = &self.contacts;
+        let point_data = vec![
+            Array::vectors("normal", normal),
+            Array::scalars("gap", gap),
+            Array::vectors("impulse", impulse),
+            Array::scalars("normal_impulse", normal_impulse),
+            Array::scalars("status", status),
+            Array { name: "bodies", components: 2, values: pairs.as_flattened().into() },
+        ];
+        PolyData { points, point_data, time: self.time, ..PolyData::default() }
+    }
+}
+
+/// Puts `values` in place of what is in `list`, in the same memory.
+fn refill<T>(list: &mut Vec<T>, values: impl Iterator<Item = T>) {
+    list.clear();
+    list.extend(values);
+}
+
+/// Two or three numbers as three.
+fn space_vector(v: &[f64]) -> [f64; 3] {
+    std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0))
+}
+
+/// The impulse on body `b` in the world.
+fn in_world<const D: usize>(c: &Localised<D>) -> [f64; D] {
+    std::array::from_fn(|k| (0..D).map(|i| c.frame[i][k] * c.impulse[i]).sum())
+}
+
+fn status<const D: usize>(c: &Localised<D>) -> ContactStatus {
+    if c.impulse == [0.0; D] {
+        return ContactStatus::Open;
+    }
+    match c.form.cone {
+        Cone::Coulomb(mu) if tangent_norm(&c.impulse) >= (1.0 - 1e-9) * mu * c.impulse[0] => ContactStatus::Sliding,
+        _ => ContactStatus::Sticking,
+    }
+}
