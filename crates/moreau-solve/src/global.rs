@@ -10,6 +10,7 @@ pub(crate) mod judge;
 mod lemke;
 mod mixing;
 mod nlgs;
+mod packed;
 mod steps;
 mod sweep;
 
@@ -29,9 +30,9 @@ use judge::Judge;
 )]
 pub enum GlobalMethod {
     /// Nonlinear Gauss-Seidel.
-    #[default]
     Nlgs,
     /// Nonlinear Gauss-Seidel with momentum.
+    #[default]
     Accelerated,
     /// Global primal-dual active set.
     ActiveSet,
@@ -91,6 +92,7 @@ pub struct Scratch<State, const D: usize> {
     pub(crate) mixing: mixing::Mixing,
     /// The best impulses seen, of methods that may get worse.
     pub(crate) best: Vec<Vector<D>>,
+    pub(crate) packings: packed::Packings,
 }
 
 impl<State, const D: usize> Scratch<State, D> {
@@ -121,10 +123,14 @@ impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
             GlobalMethod::Apgd => apgd::run(self),
             GlobalMethod::Admm => admm::run(self),
             GlobalMethod::Lemke => lemke::run(self),
-            GlobalMethod::Nlgs | GlobalMethod::Accelerated | GlobalMethod::ActiveSet => {
-                with_local(self.settings, Sweeping { work: self, method })
-            }
+            GlobalMethod::Nlgs | GlobalMethod::Accelerated => packed::run(self, method).unwrap_or_else(|| self.sweep(method)),
+            GlobalMethod::ActiveSet => self.sweep(method),
         }
+    }
+
+    /// Runs a method that sweeps, with its local solver.
+    fn sweep(&mut self, method: GlobalMethod) -> Status {
+        with_local(self.settings, Sweeping { work: self, method })
     }
 
     /// Makes ready for sweeps from the impulses of now with the local solver `L`.
@@ -190,7 +196,9 @@ pub fn solve<O: Operator<D>, const D: usize>(
     let mut work = Work { problem, settings: *settings, r, scratch, judge: Judge::new(problem, settings), stages: Vec::new() };
     let status = if problem.is_empty() { Status::Converged } else { work.run(settings.global) };
     let Work { r, scratch, judge, mut stages, .. } = work;
-    problem.operator.start(r, &mut scratch.state);
+    if status != Status::Converged || judge.certified_at != Some(judge.sweeps) {
+        problem.operator.start(r, &mut scratch.state);
+    }
     let residual = measure(problem, &scratch.state, r, claims(&scratch.claimed));
     if stages.is_empty() {
         stages.push(Stage { method: settings.global, sweeps: judge.sweeps, error: residual.of(settings.criterion), status });

@@ -36,17 +36,19 @@ mod problem;
 mod report;
 pub mod residual;
 mod settings;
+mod wide;
 
 pub use cone::Cone;
 pub use global::{GlobalMethod, Scratch, solve};
 pub use law::{Acts, Law, NormalForm};
 pub use local::LocalMethod;
-pub use operator::{Delassus, MatrixFree, Operator};
+pub use operator::{Balls, Delassus, MatrixFree, Operator};
 pub use order::Order;
 pub use problem::Problem;
 pub use report::{HistoryRow, Report, Stage, Status};
 pub use residual::{EpsGlob, Residual, Worst};
 pub use settings::{CRITERIA, Criterion, Parameter, Resolved, Settings, SettingsError};
+pub use wide::Kernels;
 
 /// One line of a table of what can be named in a scene: laws, solvers, shapes, outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

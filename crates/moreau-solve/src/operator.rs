@@ -1,8 +1,11 @@
-//! The Delassus operator W = H* M⁻¹ H (eq. 17), two ways: through the bodies, or stored.
+//! The Delassus operator W = H* M⁻¹ H (eq. 17), three ways: through the bodies, through bodies that are round, or stored.
 
+pub mod balls;
+pub(crate) mod colouring;
 mod delassus;
 mod matrix_free;
 
+pub use balls::Balls;
 pub use delassus::Delassus;
 pub use matrix_free::{MatrixFree, NONE};
 
@@ -18,7 +21,7 @@ pub trait Operator<const D: usize>: Sync {
     fn start(&self, r: &[Vector<D>], state: &mut Self::State);
 
     /// The diagonal block W_cc.
-    fn diagonal(&self, c: usize) -> &Matrix<D>;
+    fn diagonal(&self, c: usize) -> Matrix<D>;
 
     /// (W r)_c.
     fn apply(&self, state: &Self::State, c: usize) -> Vector<D>;
@@ -32,6 +35,11 @@ pub trait Operator<const D: usize>: Sync {
 
     /// W in stored blocks, for methods that factorise it.
     fn stored(&self) -> Cow<'_, Delassus<D>>;
+
+    /// The operator as contacts of round bodies, if it is one: such contacts can be visited several at a time.
+    fn balls(&self) -> Option<&Balls<D>> {
+        None
+    }
 
     /// One visit: gives W_cc and (W r)_c to `visit`, and adds the change of the impulse that it returns.
     fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<D>, Vector<D>) -> Vector<D>);

@@ -43,6 +43,18 @@ impl EpsGlob {
     pub fn total(&self) -> f64 {
         self.motion + self.bipotential + self.penetration
     }
+
+    #[inline]
+    fn add(&mut self, part: &Self) {
+        self.motion += part.motion;
+        self.bipotential += part.bipotential;
+        self.penetration += part.penetration;
+    }
+
+    fn mean(&self, contacts: usize) -> Self {
+        let share = 1.0 / contacts.max(1) as f64;
+        Self { motion: self.motion * share, bipotential: self.bipotential * share, penetration: self.penetration * share }
+    }
 }
 
 /// The contact with the largest e_c.
@@ -128,33 +140,75 @@ pub fn measure<O: Operator<D>, const D: usize>(
     r: &[Vector<D>],
     claimed: Option<&[Vector<D>]>,
 ) -> Residual {
-    let (mut motion, mut outside, mut power, mut speeds) = (0.0, 0.0, 0.0, 0.0);
+    let (mut motion, mut outside, mut power, mut speeds, mut errors) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    let (mut eps, mut plain) = (EpsGlob::default(), Plain::default());
     let mut worst: Option<Worst> = None;
     for c in 0..problem.len() {
-        let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &problem.velocity(state, c), &r[c]);
-        let hat = cone.hat(&u);
+        let velocity = problem.velocity(state, c);
+        eps.add(&eps_glob(problem.cones[c], claimed.map_or(&velocity, |claimed| &claimed[c]), &velocity, &r[c]));
+        plain.add(problem, c, &velocity, &r[c]);
+        let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
         speeds += squared(&q) + squared(&u);
         motion += claimed.map_or(0.0, |claimed| squared(&sub(&in_one_unit(problem, c, &claimed[c], &r).u, &u)));
-        let beyond = w * cone.distance(&r) + norm(&cone.nearest(&hat.map(|x| -x)));
+        let (beyond, normalised) = if D == 1 { pair_of_one(w, u[0], r[0]) } else { pair_of_cones(cone, w, &u, &r) };
         outside += beyond * beyond;
-        let sizes = w * norm(&r) + norm(&hat);
-        let normalised = if sizes > 0.0 { w * dot(&hat, &r) / sizes } else { 0.0 };
         power += normalised * normalised;
         let error = natural(cone, w, &u, &r);
+        errors += error * error;
         // Also where it is no number, which no comparison would find.
         if worst.is_none_or(|worst| !worst.error.is_nan() && (error.is_nan() || error > worst.error)) {
             worst = Some(Worst { contact: c, error });
         }
     }
-    let (scaled, siconos) = naturals::<O, D, true, true>(problem, state, r);
     Residual {
-        eps_glob: mean_eps_glob(problem, state, r, claimed),
-        scaled,
-        siconos,
+        eps_glob: eps.mean(problem.len()),
+        scaled: ratio(errors, speeds),
+        siconos: plain.ratio(),
         motion: ratio(motion, speeds),
         cone: ratio(outside, speeds),
         complementarity: ratio(power, speeds),
         worst,
+    }
+}
+
+/// w dist(r, K) + dist(û, K*), and w |û·r| / (w ‖r‖ + ‖û‖).
+#[inline]
+fn pair_of_cones<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D>) -> (f64, f64) {
+    let hat = cone.hat(u);
+    let beyond = w * cone.distance(r) + norm(&cone.nearest(&hat.map(|x| -x)));
+    let sizes = w * norm(r) + norm(&hat);
+    (beyond, if sizes > 0.0 { w * dot(&hat, r) / sizes } else { 0.0 })
+}
+
+/// The same of numbers: what is outside of a half line, and a product.
+#[inline]
+fn pair_of_one(w: f64, u: f64, r: f64) -> (f64, f64) {
+    let sizes = w * r.abs() + u.abs();
+    (w * (-r).max(0.0) + (-u).max(0.0), if sizes > 0.0 { w * u * r / sizes } else { 0.0 })
+}
+
+/// The sums of Siconos's residual.
+#[derive(Default)]
+struct Plain {
+    errors: f64,
+    qq: f64,
+    rr: f64,
+    uu: f64,
+}
+
+impl Plain {
+    #[inline]
+    fn add<O: Operator<D>, const D: usize>(&mut self, problem: &Problem<'_, O, D>, c: usize, u: &Vector<D>, r: &Vector<D>) {
+        let cone = problem.cones[c];
+        let error = natural(cone, 1.0, u, r);
+        self.errors += error * error;
+        self.qq += squared(&seen(cone, &problem.q[c]));
+        self.rr += squared(r);
+        self.uu += squared(&seen(cone, u));
+    }
+
+    fn ratio(&self) -> f64 {
+        ratio(self.errors, larger(self.qq, larger(self.rr, self.uu)))
     }
 }
 
@@ -187,13 +241,9 @@ fn mean_eps_glob<O: Operator<D>, const D: usize>(
     let mut sum = EpsGlob::default();
     for c in 0..problem.len() {
         let u = problem.velocity(state, c);
-        let part = eps_glob(problem.cones[c], claimed.map_or(&u, |claimed| &claimed[c]), &u, &r[c]);
-        sum.motion += part.motion;
-        sum.bipotential += part.bipotential;
-        sum.penetration += part.penetration;
+        sum.add(&eps_glob(problem.cones[c], claimed.map_or(&u, |claimed| &claimed[c]), &u, &r[c]));
     }
-    let mean = 1.0 / problem.len().max(1) as f64;
-    EpsGlob { motion: sum.motion * mean, bipotential: sum.bipotential * mean, penetration: sum.penetration * mean }
+    sum.mean(problem.len())
 }
 
 /// The scaled residual and that of Siconos, those that are asked for.
@@ -202,8 +252,7 @@ fn naturals<O: Operator<D>, const D: usize, const SCALED: bool, const SICONOS: b
     state: &O::State,
     r: &[Vector<D>],
 ) -> (f64, f64) {
-    let (mut errors, mut speeds) = (0.0, 0.0);
-    let (mut plain_errors, mut qq, mut rr, mut uu) = (0.0, 0.0, 0.0, 0.0);
+    let (mut errors, mut speeds, mut plain) = (0.0, 0.0, Plain::default());
     for c in 0..problem.len() {
         let velocity = problem.velocity(state, c);
         if SCALED {
@@ -213,15 +262,10 @@ fn naturals<O: Operator<D>, const D: usize, const SCALED: bool, const SICONOS: b
             speeds += squared(&q) + squared(&u);
         }
         if SICONOS {
-            let cone = problem.cones[c];
-            let error = natural(cone, 1.0, &velocity, &r[c]);
-            plain_errors += error * error;
-            qq += squared(&seen(cone, &problem.q[c]));
-            rr += squared(&r[c]);
-            uu += squared(&seen(cone, &velocity));
+            plain.add(problem, c, &velocity, &r[c]);
         }
     }
-    (ratio(errors, speeds), ratio(plain_errors, larger(qq, larger(rr, uu))))
+    (ratio(errors, speeds), plain.ratio())
 }
 
 /// √(a/b), zero where a is, NaN where one is not finite: a projection may make zero of what is no number, the sizes still show it.
@@ -260,7 +304,7 @@ fn in_one_unit<O: Operator<D>, const D: usize>(
     match cone {
         Cone::Signorini => Measured { cone, w: block[0][0], q: seen(cone, q), u: seen(cone, u), r: *r },
         Cone::Rolling { mu, mu_r } => {
-            let (w, arm) = arm(block);
+            let (w, arm) = arm(&block);
             let turned = |a: &Vector<D>, by: f64| std::array::from_fn(|i| if i >= D.div_ceil(2) { by * a[i] } else { a[i] });
             let cone = Cone::Rolling { mu, mu_r: mu_r / arm };
             Measured { cone, w, q: turned(q, arm), u: turned(u, arm), r: turned(r, 1.0 / arm) }

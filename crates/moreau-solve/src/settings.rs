@@ -1,6 +1,6 @@
 //! How a problem is to be solved.
 
-use crate::{GlobalMethod, LocalMethod, Order, Row};
+use crate::{GlobalMethod, Kernels, LocalMethod, Order, Row};
 
 /// Which measure stops the sweeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -105,6 +105,8 @@ pub struct Settings {
     pub symmetric: bool,
     /// The order of a sweep.
     pub order: Order,
+    /// Whether contacts of round bodies are visited several at a time; see [`Kernels`].
+    pub kernels: Kernels,
     /// ρ of SBP, SAL, EBP, EAL.
     pub rho: Parameter,
     /// γ of PDAS.
@@ -117,7 +119,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            global: GlobalMethod::Nlgs,
+            global: GlobalMethod::Accelerated,
             local: LocalMethod::Pdas,
             criterion: Criterion::EpsGlob,
             tolerance: 1e-7,
@@ -126,6 +128,7 @@ impl Default for Settings {
             relaxation: 1.0,
             symmetric: false,
             order: Order::Coloured,
+            kernels: Kernels::Auto,
             rho: Parameter::Auto,
             gamma: Parameter::Auto,
             history: false,

@@ -82,6 +82,14 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Bodies<S, D, N> {
         self.motion[i] == Motion::Free
     }
 
+    /// The load on body `i` in its generalised coordinates.
+    #[inline]
+    pub fn load_in_body(&self, i: usize) -> [f64; N] {
+        let load = &self.load[i];
+        // Most bodies have none, and turning nothing takes as long as turning something.
+        if *load == [0.0; N] { *load } else { S::load_in_body(self.pose[i].rotation, load) }
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.pose.is_empty()

@@ -27,13 +27,39 @@ use crate::local::LocalSolver;
 use crate::{Operator, Status};
 
 /// For how many sweeps without a gain acceleration may go on at first.
-const FIRST_PATIENCE: u64 = 64;
+pub(super) const FIRST_PATIENCE: u64 = 64;
 /// β = t/(t + OFFSET).
 const OFFSET: f64 = 0.5;
 /// What a restart leaves of t.
 const SHORTENED: f64 = 0.6;
 /// The cosine of the angle to the way just gone below which a change of the impulses counts as against it.
 const AGAINST: f64 = 0.2;
+
+/// How far the next sweep is to go beyond the last.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Momentum {
+    t: f64,
+}
+
+impl Default for Momentum {
+    fn default() -> Self {
+        Self { t: 1.0 }
+    }
+}
+
+impl Momentum {
+    /// β after a sweep that changed the impulses by ‖f‖ = `change`, on a way ‖z⁺ − z‖ = `length`, with f·(z⁺ − z) = `along`; zero is
+    /// a restart.
+    pub(super) fn after(&mut self, change: f64, length: f64, along: f64) -> f64 {
+        if along < AGAINST * change * length {
+            self.t = (SHORTENED * self.t).max(1.0);
+            return 0.0;
+        }
+        let beta = self.t / (self.t + OFFSET);
+        self.t += 1.0;
+        beta
+    }
+}
 
 /// Phases until the judge says stop.
 pub(super) fn run<O: Operator<D>, L: LocalSolver, const D: usize>(work: &mut Work<'_, O, D>, local: L) -> Status {
@@ -72,7 +98,7 @@ fn accelerate<O: Operator<D>, L: LocalSolver, const D: usize>(
     keep(&mut scratch.previous, r);
     keep(&mut scratch.from, r);
     scratch.earlier.clone_from(&scratch.state);
-    let (mut t, mut gained_at): (f64, _) = (1.0, work.judge.sweeps);
+    let (mut momentum, mut gained_at) = (Momentum::default(), work.judge.sweeps);
     let end = loop {
         sweep_from(work, local);
         if let Some(status) = work.after_sweep() {
@@ -86,14 +112,14 @@ fn accelerate<O: Operator<D>, L: LocalSolver, const D: usize>(
                 break None;
             }
         }
-        extrapolate(work, &mut mixing, &mut t);
+        extrapolate(work, &mut mixing, &mut momentum);
     };
     work.scratch.mixing = mixing;
     end
 }
 
 /// Chooses the point y from which the next sweep starts.
-fn extrapolate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, mixing: &mut Mixing, t: &mut f64) {
+fn extrapolate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, mixing: &mut Mixing, momentum: &mut Momentum) {
     let Work { problem, r, scratch, .. } = work;
     let way = mixing.push(r.as_flattened(), scratch.from.as_flattened(), scratch.previous.as_flattened());
     scratch.previous.copy_from_slice(r);
@@ -104,15 +130,13 @@ fn extrapolate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, mixing
             *y = cone.nearest(y);
         }
         problem.operator.start(&scratch.from, &mut scratch.state);
-        *t = 1.0;
-    } else if way.change_along_way < AGAINST * way.change * way.length {
-        scratch.from.copy_from_slice(r);
-        *t = (SHORTENED * *t).max(1.0);
+        *momentum = Momentum::default();
     } else {
-        let beta = *t / (*t + OFFSET);
-        *t += 1.0;
+        let beta = momentum.after(way.change, way.length, way.change_along_way);
         mixing.ahead(scratch.from.as_flattened_mut(), r.as_flattened(), beta);
-        problem.operator.extrapolate(&mut scratch.state, &scratch.earlier, beta);
+        if beta != 0.0 {
+            problem.operator.extrapolate(&mut scratch.state, &scratch.earlier, beta);
+        }
     }
     std::mem::swap(&mut scratch.earlier, now);
 }

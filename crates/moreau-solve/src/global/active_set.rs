@@ -180,7 +180,7 @@ fn newton<O: Operator<D>, const D: usize>(work: &Work<'_, O, D>, stored: &Delass
 /// −F_c, I − G_c and G_c ρ_c at the impulses and the state of now.
 fn linearise<O: Operator<D>, const D: usize>(work: &Work<'_, O, D>, c: usize) -> Linear<D> {
     let (u, r) = (work.problem.velocity(&work.scratch.state, c), &work.r[c]);
-    let rho = rho(work.problem.cones[c], work.problem.operator.diagonal(c));
+    let rho = rho(work.problem.cones[c], &work.problem.operator.diagonal(c));
     let tau: Vector<D> = std::array::from_fn(|i| r[i] - rho[i] * u[i]);
     let (image, g) = work.problem.cones[c].project_cylinder(&tau);
     let one = identity::<D>();

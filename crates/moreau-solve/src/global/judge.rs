@@ -21,6 +21,8 @@ pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
     pub history: Vec<HistoryRow>,
     /// Visits of the last sweep in which the local solver did not reach its own end.
     pub unfinished_visits: u64,
+    /// The number of sweeps at which the state was made anew from the impulses.
+    pub certified_at: Option<u64>,
     next_check: u64,
     skip_to: u64,
 }
@@ -40,6 +42,7 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
             measured_at: 0,
             history: Vec::new(),
             unfinished_visits: 0,
+            certified_at: None,
             next_check: 1,
             skip_to: 0,
         }
@@ -68,23 +71,44 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
 
     fn measured(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
         let before = self.error;
+        self.record(state, r, claimed);
+        self.error = self.weigh(state, r, claimed);
+        self.skip_to = self.sweeps + self.hopeless(before);
+        self.measured_at = self.sweeps;
+        if self.error <= self.settings.tolerance && self.confirmed(state, r, claimed) {
+            return Some(Status::Converged);
+        }
+        self.unmet()
+    }
+
+    /// Makes `state` anew from the impulses and measures that: how the method ends, if it does.
+    pub(crate) fn certify(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
+        let met = self.confirmed(state, r, claimed);
+        self.record(state, r, claimed);
+        self.measured_at = self.sweeps;
+        if met { Some(Status::Converged) } else { self.unmet() }
+    }
+
+    fn record(&mut self, state: &O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) {
         if self.settings.history {
             let residual = measure(self.problem, state, r, claimed);
             self.history.push(HistoryRow { sweep: self.sweeps, residual });
         }
-        self.error = self.weigh(state, r, claimed);
-        self.skip_to = self.sweeps + self.hopeless(before);
-        self.measured_at = self.sweeps;
-        if !self.error.is_finite() {
-            return Some(Status::NotFinite);
+    }
+
+    /// How the method ends although the criterion is not met.
+    fn unmet(&self) -> Option<Status> {
+        match () {
+            () if !self.error.is_finite() => Some(Status::NotFinite),
+            () if self.sweeps >= self.limit => Some(Status::MaxSweeps),
+            () if self.is_late() => Some(Status::OutOfTime),
+            () => None,
         }
-        if self.error <= self.settings.tolerance && self.confirmed(state, r, claimed) {
-            return Some(Status::Converged);
-        }
-        if self.sweeps >= self.limit {
-            return Some(Status::MaxSweeps);
-        }
-        self.deadline.filter(|&deadline| Instant::now() >= deadline).map(|_| Status::OutOfTime)
+    }
+
+    /// Whether the clock has run out.
+    pub(crate) fn is_late(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
     /// For how many sweeps a measure cannot but say no: a quarter of those that the fall since the last one, `before`,
@@ -104,6 +128,7 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     /// A state has gathered the rounding of every visit: the verdict is on the impulses alone.
     fn confirmed(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> bool {
         self.problem.operator.start(r, state);
+        self.certified_at = Some(self.sweeps);
         self.error = self.weigh(state, r, claimed);
         self.error <= self.settings.tolerance
     }

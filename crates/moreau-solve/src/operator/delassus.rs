@@ -135,8 +135,8 @@ impl<const D: usize> Operator<D> for Delassus<D> {
         state.extend_from_slice(r);
     }
 
-    fn diagonal(&self, c: usize) -> &Matrix<D> {
-        &self.diagonal[c]
+    fn diagonal(&self, c: usize) -> Matrix<D> {
+        self.diagonal[c]
     }
 
     fn apply(&self, state: &Self::State, c: usize) -> Vector<D> {

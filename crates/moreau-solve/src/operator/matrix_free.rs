@@ -1,6 +1,6 @@
 //! W through the bodies: never formed, one contact touches two bodies.
 
-use super::{Delassus, Operator};
+use super::{Delassus, Operator, colouring};
 use crate::block::{Matrix, Vector};
 use std::borrow::Cow;
 
@@ -16,9 +16,6 @@ pub struct MatrixFree<const D: usize, const N: usize> {
     bodies: usize,
     contacts: Vec<Contact<D, N>>,
 }
-
-/// Contacts are ordered by colour among so many at a time.
-const WINDOW: u32 = 1024;
 
 /// All that a visit reads of a contact, side by side.
 #[derive(Clone, Copy, Debug)]
@@ -138,8 +135,8 @@ impl<const D: usize, const N: usize> Operator<D> for MatrixFree<D, N> {
     }
 
     #[inline]
-    fn diagonal(&self, c: usize) -> &Matrix<D> {
-        &self.contacts[c].diagonal
+    fn diagonal(&self, c: usize) -> Matrix<D> {
+        self.contacts[c].diagonal
     }
 
     #[inline]
@@ -156,19 +153,8 @@ impl<const D: usize, const N: usize> Operator<D> for MatrixFree<D, N> {
         Cow::Owned(Delassus::assemble(self))
     }
 
-    /// Greedy: each contact, in its number's order, takes the first colour that neither of its bodies has; sorted by colour, then
-    /// number, within windows that stay in the cache. Colours beyond the sixty-third, which only a body with as many contacts needs, are the last one's.
     fn colour(&self, order: &mut [u32]) {
-        let mut taken = vec![0_u64; self.bodies];
-        let mut colours = Vec::with_capacity(self.contacts.len());
-        for Contact { pair, .. } in &self.contacts {
-            let bodies = || pair.iter().filter(|&&body| body != NONE).map(|&body| body as usize);
-            let used = bodies().fold(0, |used, body| used | taken[body]);
-            let colour = used.trailing_ones().min(63);
-            bodies().for_each(|body| taken[body] |= 1 << colour);
-            colours.push(colour);
-        }
-        order.sort_unstable_by_key(|&c| (c / WINDOW, colours[c as usize], c));
+        colouring::sort(self.bodies, self.contacts.iter().map(|contact| contact.pair), order);
     }
 
     #[inline(always)]

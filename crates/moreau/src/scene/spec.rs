@@ -4,7 +4,7 @@
 
 use super::values::{Angular, Numbers, Orientation};
 use crate::world::{OnFailure, Start};
-use moreau_solve::{Criterion, GlobalMethod, Law, LocalMethod, Order, Parameter, Settings};
+use moreau_solve::{Criterion, GlobalMethod, Kernels, Law, LocalMethod, Order, Parameter, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +45,8 @@ pub struct Solver {
     pub start: Start,
     /// The order in which a sweep visits the contacts.
     pub order: Order,
+    /// Whether contacts of round bodies are visited several at a time.
+    pub kernels: Kernels,
     /// What to do when a solve reaches its limit of sweeps.
     pub on_failure: OnFailure,
     /// ρ of sbp, sal, ebp and eal: "auto", { relative = factor } or { absolute = kg }.
@@ -59,31 +61,47 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        let Settings { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, relaxation, symmetric, .. } =
-            Settings::default();
+        let Settings { global, local, criterion, tolerance, max_sweeps, .. } = Settings::default();
+        let Settings { order, kernels, rho, gamma, relaxation, symmetric, .. } = Settings::default();
         let (start, on_failure) = (Start::default(), OnFailure::default());
-        Self { global, local, criterion, tolerance, max_sweeps, start, order, on_failure, rho, gamma, relaxation, symmetric }
+        Self {
+            global,
+            local,
+            criterion,
+            tolerance,
+            max_sweeps,
+            start,
+            order,
+            kernels,
+            on_failure,
+            rho,
+            gamma,
+            relaxation,
+            symmetric,
+        }
     }
 }
 
 impl Solver {
     /// The settings of the contact solver.
     pub fn settings(&self) -> Settings {
-        let Self { global, local, criterion, tolerance, max_sweeps, order, rho, gamma, relaxation, symmetric, .. } = *self;
-        let given = Settings {
+        let Self { global, local, criterion, tolerance, max_sweeps, .. } = *self;
+        let Self { order, kernels, rho, gamma, relaxation, symmetric, .. } = *self;
+        Settings {
             global,
             local,
             criterion,
             tolerance,
             max_sweeps,
             order,
+            kernels,
             rho,
             gamma,
             relaxation,
             symmetric,
-            ..Settings::default()
-        };
-        Settings { history: false, max_seconds: None, ..given }
+            max_seconds: None,
+            history: false,
+        }
     }
 }
 

@@ -32,6 +32,9 @@ impl Space<3, 6> for Solid {
     fn turn(rotation: DQuat, velocity: &[f64; 6], h: f64) -> DQuat {
         // The unit quaternion along (1, h ω / 2) is the Cayley map of h ω; ω lives in the body, so it acts from the right.
         let half = 0.5 * h * spin(velocity);
+        if half == DVec3::ZERO {
+            return rotation;
+        }
         (rotation * DQuat::from_xyzw(half.x, half.y, half.z, 1.0)).normalize()
     }
 
@@ -84,6 +87,10 @@ impl Space<3, 6> for Solid {
         torque: &[f64; 6],
     ) -> [f64; 6] {
         let inertia = spin(mass);
+        let round = inertia.x == inertia.y && inertia.y == inertia.z;
+        if round && spin(torque) == DVec3::ZERO && spin(after) == spin(free) && spin(free) == spin(v) {
+            return *after;
+        }
         let momentum = before * (inertia * spin(v)) + spin(torque) + middle * (inertia * (spin(after) - spin(free)));
         let settled = (end.conjugate() * momentum) / inertia;
         [after[0], after[1], after[2], settled.x, settled.y, settled.z]

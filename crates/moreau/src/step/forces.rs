@@ -16,7 +16,7 @@ pub(super) fn free_velocity<S: Space<D, N>, const D: usize, const N: usize>(
         if !bodies.is_free(i) {
             return v;
         }
-        let load = S::load_in_body(bodies.pose[i].rotation, &bodies.load[i]);
+        let load = bodies.load_in_body(i);
         for k in 0..N {
             v[k] += h * bodies.inverse_mass[i][k] * load[k];
         }

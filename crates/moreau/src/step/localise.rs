@@ -1,6 +1,7 @@
 //! Stages 6 and 7: from bodies to contacts. Each contact gets its frame, its velocities H* v (eqs. 15, 19, 20) and its law.
 
 use super::workspace::Localised;
+use crate::bodies::Bodies;
 use crate::contacts::Contact;
 use crate::shape::Shape;
 use crate::space::{Pose, Space};
@@ -9,80 +10,117 @@ use moreau_solve::block::dot;
 use moreau_solve::law::Approach;
 use rayon::prelude::*;
 
-/// The two blocks of a contact's row of H*, of body `a` and of body `b`.
-pub(super) type Rows<const D: usize, const N: usize> = [[[f64; N]; D]; 2];
-
-/// The two blocks of a contact's row of H*: minus for body `a`, plus for body `b`, so that H* v is the velocity of b relative to a.
-pub(super) fn rows<S: Space<D, N>, const D: usize, const N: usize>(
-    shapes: &[S::Shape],
-    middle: &[Pose<S::Rotation, D>],
-    contact: &Contact<D>,
-    frame: &[[f64; D]; D],
-) -> Rows<D, N> {
-    let side = |body: u32, sign: f64| {
-        let (shape, pose) = (&shapes[body as usize], &middle[body as usize]);
-        let arm = std::array::from_fn(|k| contact.point[k] - pose.position[k]);
-        std::array::from_fn(|i| {
-            let mut row = S::row(pose.rotation, arm, frame[i]).map(|x| sign * x);
-            if i == 0 && shape.is_round() {
-                // The normal of a round body passes through its centre; rounding must not make it spin.
-                row[D..].fill(0.0);
-            }
-            row
-        })
-    };
-    [side(contact.key.a, -1.0), side(contact.key.b, 1.0)]
+/// Spins in the world of all bodies, at the beginning of the step and without contacts.
+#[derive(Default)]
+pub(super) struct Spins {
+    before: Vec<[f64; 3]>,
+    free: Vec<[f64; 3]>,
 }
 
-/// A contact before the solve, its velocity without impulses, and its rows; `None` if its law does not act in this step.
-pub(super) type Prepared<const D: usize, const N: usize> = Option<(Localised<D>, [f64; D], Rows<D, N>)>;
-
-/// Localises all of `contacts`, in order; by several threads where there are enough of them to pay.
-pub(super) fn localise_all<S: Space<D, N>, const D: usize, const N: usize>(
-    world: &World<S, D, N>,
-    middle: &[Pose<S::Rotation, D>],
-    free: &[[f64; N]],
-    contacts: &[Contact<D>],
-    h: f64,
-    prepared: &mut Vec<Prepared<D, N>>,
-) {
-    if contacts.len() < 1024 || rayon::current_num_threads() == 1 {
-        prepared.clear();
-        prepared.extend(contacts.iter().map(|contact| localise(world, middle, free, contact, h)));
-    } else {
-        contacts.par_iter().map(|contact| localise(world, middle, free, contact, h)).collect_into_vec(prepared);
+impl Spins {
+    /// Turns them into the world, at the predicted configuration.
+    pub(super) fn fill<S: Space<D, N>, const D: usize, const N: usize>(
+        &mut self,
+        middle: &[Pose<S::Rotation, D>],
+        [before, free]: [&[[f64; N]]; 2],
+    ) {
+        let spin = |i: usize, v: &[[f64; N]]| S::spin_in_world(middle[i].rotation, &v[i]);
+        self.before.clear();
+        self.before.extend((0..middle.len()).map(|i| spin(i, before)));
+        self.free.clear();
+        // Where no torque acts they are the same.
+        let same = |i: usize| before[i][D..] == free[i][D..];
+        self.free.extend((0..middle.len()).map(|i| if same(i) { self.before[i] } else { spin(i, free) }));
     }
 }
 
-fn localise<S: Space<D, N>, const D: usize, const N: usize>(
-    world: &World<S, D, N>,
-    middle: &[Pose<S::Rotation, D>],
-    free: &[[f64; N]],
-    contact: &Contact<D>,
-    h: f64,
-) -> Prepared<D, N> {
-    let bodies = &world.bodies;
-    let pair = [contact.key.a as usize, contact.key.b as usize];
-    let frame = S::frame(contact.normal);
-    let rows = rows::<S, D, N>(&bodies.shape, middle, contact, &frame);
-    let relative = |v: &[[f64; N]], count: &dyn Fn(usize) -> bool| -> [f64; D] {
-        std::array::from_fn(|i| (0..2).filter(|&s| count(pair[s])).map(|s| dot(&rows[s][i], &v[pair[s]])).sum())
-    };
-    let before = relative(&bodies.velocity, &|_| true);
-    let driven = relative(&bodies.velocity, &|body| !bodies.is_free(body));
-    let approach = Approach { gap: contact.gap, closed_below: closed_below(bodies, pair), before, step: h };
-    let form = world.laws.get(bodies.material[pair[0]], bodies.material[pair[1]]).normal_form(&approach)?;
-    let u_free = relative(free, &|_| true);
-    let localised = Localised { contact: *contact, frame, form, before, after: [0.0; D], driven, impulse: [0.0; D] };
-    Some((localised, std::array::from_fn(|i| u_free[i] + form.shift[i]), rows))
+/// A contact before the solve and its velocity without impulses; `None` if its law does not act in this step.
+pub(super) type Prepared<const D: usize> = Option<(Localised<D>, [f64; D])>;
+
+/// What localising reads.
+pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> {
+    pub(super) world: &'a World<S, D, N>,
+    pub(super) middle: &'a [Pose<S::Rotation, D>],
+    pub(super) free: &'a [[f64; N]],
+    /// `None` where no contact turns a body; velocities are then those along the normal alone.
+    pub(super) spins: Option<&'a Spins>,
+    pub(super) h: f64,
+}
+
+impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
+    /// Localises all of `contacts` that act, in order; by several threads where there are enough of them to pay.
+    pub(super) fn each(
+        &self,
+        contacts: &[Contact<D>],
+        prepared: &mut Vec<Prepared<D>>,
+        mut take: impl FnMut(&Localised<D>, &[f64; D]),
+    ) {
+        let one = |contact| if self.spins.is_some() { self.one::<true>(contact) } else { self.one::<false>(contact) };
+        if contacts.len() < 1024 || rayon::current_num_threads() == 1 {
+            contacts.iter().filter_map(one).for_each(|(localised, q)| take(&localised, &q));
+        } else {
+            contacts.par_iter().map(one).collect_into_vec(prepared);
+            prepared.iter().flatten().for_each(|(localised, q)| take(localised, q));
+        }
+    }
+
+    /// With TURNS the spins count.
+    #[inline]
+    fn one<const TURNS: bool>(&self, contact: &Contact<D>) -> Prepared<D> {
+        let bodies = &self.world.bodies;
+        let (a, b) = (contact.key.a as usize, contact.key.b as usize);
+        let frame = S::frame(contact.normal);
+        let spins = |of: fn(&Spins) -> &[[f64; 3]]| self.spins.map_or([].as_slice(), of);
+        let before = |body: usize| self.at_point::<TURNS>(contact, body, &bodies.velocity, spins(|spins| &spins.before));
+        let (before_a, before_b) = (before(a), before(b));
+        let before = in_frame::<D, TURNS>(&frame, &before_a, &before_b);
+        let approach = Approach { gap: contact.gap, closed_below: closed_below(bodies, [a, b]), before, step: self.h };
+        let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach)?;
+        let given = |body: usize, v: &[f64; D]| if bodies.is_free(body) { [0.0; D] } else { *v };
+        let driven = match (bodies.is_free(a), bodies.is_free(b)) {
+            (true, true) => [0.0; D],
+            _ => in_frame::<D, TURNS>(&frame, &given(a, &before_a), &given(b, &before_b)),
+        };
+        let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
+        let u_free = in_frame::<D, TURNS>(&frame, &free(a), &free(b));
+        let localised = Localised { contact: *contact, frame, form, before, after: [0.0; D], driven, impulse: [0.0; D] };
+        Some((localised, std::array::from_fn(|i| u_free[i] + form.shift[i])))
+    }
+
+    /// The velocity of a body at the contact, v + ω × arm, or that of its centre.
+    #[inline]
+    fn at_point<const TURNS: bool>(&self, contact: &Contact<D>, body: usize, v: &[[f64; N]], spins: &[[f64; 3]]) -> [f64; D] {
+        let v = &v[body];
+        if !TURNS {
+            return std::array::from_fn(|k| v[k]);
+        }
+        let position = &self.middle[body].position;
+        let arm: [f64; D] = std::array::from_fn(|k| contact.point[k] - position[k]);
+        let swept = swept(&spins[body], &arm);
+        std::array::from_fn(|k| v[k] + swept[k])
+    }
+}
+
+/// The velocity of b relative to a in the contact's frame, or along its normal alone.
+#[inline]
+fn in_frame<const D: usize, const TURNS: bool>(frame: &[[f64; D]; D], a: &[f64; D], b: &[f64; D]) -> [f64; D] {
+    let relative = std::array::from_fn(|k| b[k] - a[k]);
+    std::array::from_fn(|i| if TURNS || i == 0 { dot(&frame[i], &relative) } else { 0.0 })
+}
+
+/// ω × arm.
+#[inline]
+fn swept<const D: usize>(spin: &[f64; 3], arm: &[f64; D]) -> [f64; D] {
+    let arm: [f64; 3] = std::array::from_fn(|k| if k < D { arm[k] } else { 0.0 });
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        spin[i] * arm[j] - spin[j] * arm[i]
+    })
 }
 
 /// A gap below this part of the smaller body counts as closed: the rounding of positions must not open a contact for a step, in
 /// which a body at rest would fall or slip by g h². Positions are rounded relative to their distance from the origin.
-fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(
-    bodies: &crate::bodies::Bodies<S, D, N>,
-    pair: [usize; 2],
-) -> f64 {
+fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, pair: [usize; 2]) -> f64 {
     let size = pair.iter().filter_map(|&i| bodies.shape[i].bounding_radius()).fold(f64::INFINITY, f64::min);
     let far = pair.iter().flat_map(|&i| bodies.pose[i].position).map(f64::abs).fold(0.0, f64::max);
     if size.is_finite() { rounding(size, far) } else { 0.0 }

@@ -1,7 +1,7 @@
 //! The step, on one screen: Moreau-Jean time stepping (section 3 of Barboteu & Dumont 2017; Jean 1999).
 
 use super::failed::{self, FAILED_KEPT, FailedSolve};
-use super::localise::{localise_all, rounding};
+use super::localise::{Localiser, rounding};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
@@ -30,7 +30,7 @@ pub fn step<S: Space<D, N>, const D: usize, const N: usize>(
 ) -> Result<StepRecord, StepError> {
     let started = Instant::now();
     work.failed.last = None;
-    work.ledger.open(energies(&world.bodies, &world.gravity));
+    work.ledger.open(|| energies(&world.bodies, &world.gravity));
     let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.len(), ..StepRecord::default() };
     let end = world.time + world.settings.h;
     if let Err(error) = advance(world, work, &mut record, world.settings.h, 0) {
@@ -74,9 +74,9 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     let clock = Instant::now();
     let dumps = world.settings.on_failure == OnFailure::Dump && work.failed.count < FAILED_KEPT;
     if dumps {
-        work.systems.get::<S>(kind).impulses(&mut work.failed.start);
+        work.systems.get(kind).impulses(&mut work.failed.start);
     }
-    let report = work.systems.get::<S>(kind).solve(&world.settings.solver);
+    let report = work.systems.get(kind).solve(&world.settings.solver);
     record.seconds.solve += clock.elapsed().as_secs_f64();
     record.sweeps += report.sweeps;
     if report.status != Status::Converged {
@@ -94,9 +94,9 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
         }
     }
     // 10 v⁺ = v_free + M⁻¹ H p
-    answer_contacts(work, kind);
+    work.systems.get(kind).answer(&mut work.contacts);
     work.after.clone_from(&work.free);
-    work.systems.get::<S>(kind).deposit(&world.bodies, &mut work.after);
+    work.systems.get(kind).deposit(&world.bodies, &work.middle, &mut work.after);
     note(record, work, report);
     work.ledger.book(&world.bodies, &world.gravity, [&work.free, &work.after], &work.contacts, (h, theta));
     // 11 q⁺ = q_m + h θ v⁺
@@ -116,7 +116,7 @@ fn keep_failed<S: Space<D, N>, const D: usize, const N: usize>(
 ) {
     let step = world.steps + 1;
     let info = failed::info(step, world.time + world.settings.h, &world.settings, report);
-    let problem = work.systems.get::<S>(kind).problem(&work.failed.start);
+    let problem = work.systems.get(kind).problem(&work.failed.start);
     work.failed.last = Some(FailedSolve { step, problem: problem.map(|problem| ProblemFile { info, ..problem }) });
     work.failed.count += 1;
 }
@@ -163,19 +163,23 @@ fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
     let law =
         |c: &crate::contacts::Contact<D>| world.laws.get(bodies.material[c.key.a as usize], bodies.material[c.key.b as usize]);
     let round = |body: u32| bodies.shape[body as usize].is_round() || !bodies.is_free(body as usize);
-    let kind = if !work.found.iter().all(|c| law(c).is_frictionless()) {
-        Kind::Full
-    } else if work.found.iter().all(|c| round(c.key.a) && round(c.key.b)) {
-        Kind::Central
-    } else {
-        Kind::Normal
+    let frictionless = work.found.iter().all(|c| law(c).is_frictionless());
+    let kind = match (frictionless, work.found.iter().all(|c| round(c.key.a) && round(c.key.b))) {
+        (false, false) => Kind::Full,
+        (true, false) => Kind::Normal,
+        (false, true) => Kind::Round,
+        (true, true) => Kind::Central,
     };
-    let system = work.systems.get::<S>(kind);
-    system.clear(bodies.len());
+    let system = work.systems.get(kind);
+    system.clear(bodies);
+    let spins = (kind != Kind::Central).then(|| {
+        work.spins.fill::<S, D, N>(&work.middle, [&bodies.velocity, &work.free]);
+        &work.spins
+    });
+    let localiser = Localiser { world, middle: &work.middle, free: &work.free, spins, h };
     let mut last = work.previous.iter().peekable();
     for chunk in work.found.chunks(CHUNK) {
-        localise_all(world, &work.middle, &work.free, chunk, h, &mut work.prepared);
-        for (localised, q, rows) in work.prepared.drain(..).flatten() {
+        localiser.each(chunk, &mut work.prepared, |localised, q| {
             // Both lists are sorted by key: a merge finds the impulse of the step before.
             let key = localised.contact.key;
             while last.next_if(|(before, _)| *before < key).is_some() {}
@@ -183,9 +187,9 @@ fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
                 Some((before, r)) if *before == key && world.settings.start == Start::Warm => *r,
                 _ => [0.0; D],
             };
-            system.push(bodies, [key.a, key.b], &rows, &q, localised.form.cone, &start);
-            work.contacts.push(localised);
-        }
+            system.push(bodies, &work.middle, localised, q, &start);
+            work.contacts.push(*localised);
+        });
     }
     kind
 }
@@ -194,14 +198,6 @@ fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
 fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>) {
     work.previous.clear();
     work.previous.extend(work.contacts.iter().map(|c| (c.contact.key, c.impulse)));
-}
-
-/// Gives each contact its impulse and its velocity after the step.
-fn answer_contacts<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>, kind: Kind) {
-    let system = work.systems.get::<S>(kind);
-    for (c, contact) in work.contacts.iter_mut().enumerate() {
-        (contact.impulse, contact.after) = system.answer(c, &contact.form.shift);
-    }
 }
 
 /// Adds a solve to the record of its step; of several, the worst residual counts.

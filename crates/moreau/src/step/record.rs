@@ -92,8 +92,11 @@ pub(super) fn energies<S: Space<D, N>, const D: usize, const N: usize>(
 
 impl Ledger {
     /// Notes the energy at the start of a run, once.
-    pub(super) fn open(&mut self, energy: (f64, f64)) {
-        self.start.get_or_insert(energy.0 + energy.1);
+    pub(super) fn open(&mut self, energy: impl FnOnce() -> (f64, f64)) {
+        self.start.get_or_insert_with(|| {
+            let (kinetic, potential) = energy();
+            kinetic + potential
+        });
     }
 
     /// Books one step, before the bodies move. `smooth` is v_free, `after` is v⁺.
@@ -110,13 +113,18 @@ impl Ledger {
     ) {
         for i in (0..bodies.len()).filter(|&i| bodies.is_free(i)) {
             let (v, mass) = (&bodies.velocity[i], &bodies.mass[i]);
-            let load = S::load_in_body(bodies.pose[i].rotation, &bodies.load[i]);
             let (mut displaced, mut middle) = (0.0, 0.0);
+            let v_theta = |k: usize| theta * after[i][k] + (1.0 - theta) * v[k];
+            if bodies.load[i] != [0.0; N] {
+                let load = bodies.load_in_body(i);
+                let power = (0..N).map(|k| load[k] * v_theta(k)).sum::<f64>();
+                self.work += h * power;
+                displaced += h * power;
+            }
+            for k in 0..D {
+                displaced += h * mass[k] * gravity[k] * v_theta(k);
+            }
             for k in 0..N {
-                let weight = if k < D { mass[k] * gravity[k] } else { 0.0 };
-                let v_theta = theta * after[i][k] + (1.0 - theta) * v[k];
-                self.work += h * load[k] * v_theta;
-                displaced += h * (load[k] + weight) * v_theta;
                 middle += mass[k] * (smooth[i][k] - v[k]) * 0.5 * (v[k] + after[i][k]);
             }
             self.dissipated += displaced - middle;

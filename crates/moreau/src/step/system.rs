@@ -1,28 +1,33 @@
-//! Stages 7 to 10 in one kind of coordinates: the problem over K components a contact and L degrees of freedom a body.
+//! Stages 7 to 10 in one kind of coordinates: the problem over K components a contact.
 //!
-//! A step without friction needs the normals alone (K = 1), and without friction between round bodies no spin either (L = 4 for two or three). The
+//! A step without friction needs the normals alone (K = 1), and contacts of round bodies need no rows (`Balls`). The
 //! equations are the same; only less is stored and read.
 
+mod operators;
+
 use super::failed::with_guesses;
-use super::localise::Rows;
+use super::workspace::Localised;
 use crate::bodies::Bodies;
-use crate::space::Space;
+use crate::space::{Pose, Space};
 use moreau_solve::files::{FileError, ProblemFile, StoredProblem};
-use moreau_solve::{Cone, Delassus, MatrixFree, Operator, Problem, Report, Scratch, Settings, operator::NONE};
+use moreau_solve::{Balls, Cone, Delassus, MatrixFree, Problem, Report, Scratch, Settings};
+use operators::Assembled;
 
 /// One contact problem with its memory.
-pub(super) struct System<const K: usize, const L: usize> {
-    operator: MatrixFree<K, L>,
+pub(super) struct System<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, const K: usize> {
+    operator: O,
     q: Vec<[f64; K]>,
     cones: Vec<Cone>,
     /// Impulses, first those to start from, then the answer.
     r: Vec<[f64; K]>,
-    scratch: Scratch<Vec<[f64; L]>, K>,
+    scratch: Scratch<O::State, K>,
+    space: std::marker::PhantomData<S>,
 }
 
-impl<const K: usize, const L: usize> Default for System<K, L> {
+impl<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, const K: usize> Default for System<O, S, D, N, K> {
     fn default() -> Self {
-        Self { operator: MatrixFree::default(), q: Vec::new(), cones: Vec::new(), r: Vec::new(), scratch: Scratch::default() }
+        let (operator, scratch) = (O::default(), Scratch::default());
+        Self { operator, q: Vec::new(), cones: Vec::new(), r: Vec::new(), scratch, space: std::marker::PhantomData }
     }
 }
 
@@ -33,33 +38,33 @@ pub(super) enum Kind {
     Full,
     /// None has: normals only.
     Normal,
-    /// And all bodies are round: normals only, which never turn a body.
+    /// Some contact has friction, and all bodies are round.
+    Round,
+    /// None has, and all bodies are round: normals only, which never turn a body.
     Central,
 }
 
-/// Degrees of freedom that a central system keeps of a body: those of its centre, and blanks up to two pairs. Visits hand velocities to
-/// each other through memory, and a processor does that quickly only for pieces that are written as they are read.
-const CENTRAL: usize = 4;
-
 /// A system for each kind.
-pub(super) struct Systems<const D: usize, const N: usize> {
-    full: System<D, N>,
-    normal: System<1, N>,
-    central: System<1, CENTRAL>,
+pub(super) struct Systems<S: Space<D, N>, const D: usize, const N: usize> {
+    full: System<MatrixFree<D, N>, S, D, N, D>,
+    normal: System<MatrixFree<1, N>, S, D, N, 1>,
+    round: System<Balls<D>, S, D, N, D>,
+    central: System<Balls<1>, S, D, N, 1>,
 }
 
-impl<const D: usize, const N: usize> Default for Systems<D, N> {
+impl<S: Space<D, N>, const D: usize, const N: usize> Default for Systems<S, D, N> {
     fn default() -> Self {
-        Self { full: System::default(), normal: System::default(), central: System::default() }
+        Self { full: System::default(), normal: System::default(), round: System::default(), central: System::default() }
     }
 }
 
-impl<const D: usize, const N: usize> Systems<D, N> {
+impl<S: Space<D, N>, const D: usize, const N: usize> Systems<S, D, N> {
     /// The system of this kind; called a few times a step, never inside a sweep.
-    pub(super) fn get<S: Space<D, N>>(&mut self, kind: Kind) -> &mut dyn ContactSystem<S, D, N> {
+    pub(super) fn get(&mut self, kind: Kind) -> &mut dyn ContactSystem<S, D, N> {
         match kind {
             Kind::Full => &mut self.full,
             Kind::Normal => &mut self.normal,
+            Kind::Round => &mut self.round,
             Kind::Central => &mut self.central,
         }
     }
@@ -67,11 +72,18 @@ impl<const D: usize, const N: usize> Systems<D, N> {
 
 /// What the step asks of a system, whatever its coordinates.
 pub(super) trait ContactSystem<S: Space<D, N>, const D: usize, const N: usize> {
-    /// Empties it for `bodies` bodies.
-    fn clear(&mut self, bodies: usize);
+    /// Empties it for these bodies.
+    fn clear(&mut self, bodies: &Bodies<S, D, N>);
 
     /// Adds a contact, of which the system keeps the components and degrees of freedom that it needs.
-    fn push(&mut self, bodies: &Bodies<S, D, N>, pair: [u32; 2], rows: &Rows<D, N>, q: &[f64; D], cone: Cone, start: &[f64; D]);
+    fn push(
+        &mut self,
+        bodies: &Bodies<S, D, N>,
+        middle: &[Pose<S::Rotation, D>],
+        contact: &Localised<D>,
+        q: &[f64; D],
+        start: &[f64; D],
+    );
 
     /// Finds the impulses.
     fn solve(&mut self, settings: &Settings) -> Report;
@@ -85,11 +97,11 @@ pub(super) trait ContactSystem<S: Space<D, N>, const D: usize, const N: usize> {
     /// in W and q then: what the step solved has no tangent, nothing in the answer depends on it, and μ = 0 tells so.
     fn problem(&self, start: &[f64]) -> Result<ProblemFile, FileError>;
 
-    /// Impulse and velocity (without the `shift` of the law) of contact `c`; zeros in the components that the system leaves out.
-    fn answer(&self, c: usize, shift: &[f64; D]) -> ([f64; D], [f64; D]);
+    /// Gives each contact its impulse and its velocity (without the shift of the law); zeros in the components that the system leaves out.
+    fn answer(&self, contacts: &mut [Localised<D>]);
 
-    /// v⁺ = v_free + M⁻¹ H r, in place of v_free: the state of the operator is y = M^{-1/2} H r (eq. 14).
-    fn deposit(&self, bodies: &Bodies<S, D, N>, velocity: &mut [[f64; N]]);
+    /// v⁺ = v_free + M⁻¹ H r, in place of v_free (eq. 14).
+    fn deposit(&self, bodies: &Bodies<S, D, N>, middle: &[Pose<S::Rotation, D>], velocity: &mut [[f64; N]]);
 }
 
 /// K components as D, zeros in those that the system leaves out.
@@ -97,22 +109,27 @@ fn widened<const K: usize, const D: usize>(part: &[f64; K]) -> [f64; D] {
     std::array::from_fn(|i| if i < K { part[i] } else { 0.0 })
 }
 
-impl<S: Space<D, N>, const D: usize, const N: usize, const K: usize, const L: usize> ContactSystem<S, D, N> for System<K, L> {
-    fn clear(&mut self, bodies: usize) {
-        self.operator.clear(bodies);
+impl<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, const K: usize> ContactSystem<S, D, N>
+    for System<O, S, D, N, K>
+{
+    fn clear(&mut self, bodies: &Bodies<S, D, N>) {
+        self.operator.begin(bodies);
         self.q.clear();
         self.cones.clear();
         self.r.clear();
     }
 
-    fn push(&mut self, bodies: &Bodies<S, D, N>, pair: [u32; 2], rows: &Rows<D, N>, q: &[f64; D], cone: Cone, start: &[f64; D]) {
-        let weighed = std::array::from_fn(|side| {
-            let root = &bodies.root_inverse_mass[pair[side] as usize];
-            std::array::from_fn(|i| std::array::from_fn(|k| if k < N { rows[side][i][k] * root[k] } else { 0.0 }))
-        });
-        self.operator.push(pair.map(|body| if bodies.is_free(body as usize) { body } else { NONE }), weighed);
+    fn push(
+        &mut self,
+        bodies: &Bodies<S, D, N>,
+        middle: &[Pose<S::Rotation, D>],
+        contact: &Localised<D>,
+        q: &[f64; D],
+        start: &[f64; D],
+    ) {
+        self.operator.add(bodies, middle, contact);
         self.q.push(std::array::from_fn(|i| q[i]));
-        self.cones.push(if K == 1 { Cone::Signorini } else { cone });
+        self.cones.push(if K == 1 { Cone::Signorini } else { contact.form.cone });
         self.r.push(std::array::from_fn(|i| start[i]));
     }
 
@@ -134,21 +151,20 @@ impl<S: Space<D, N>, const D: usize, const N: usize, const K: usize, const L: us
         let operator = Delassus::from_entries(self.q.len(), entries);
         let q: Vec<[f64; D]> = self.q.iter().map(widened).collect();
         let mut end = Vec::new();
-        ContactSystem::<S, D, N>::impulses(self, &mut end);
+        self.impulses(&mut end);
         with_guesses(&StoredProblem { operator, q, cones: self.cones.clone() }, [start, &end])
     }
 
-    fn answer(&self, c: usize, shift: &[f64; D]) -> ([f64; D], [f64; D]) {
+    fn answer(&self, contacts: &mut [Localised<D>]) {
         let problem = Problem { operator: &self.operator, q: &self.q, cones: &self.cones };
-        let u = problem.velocity(self.scratch.state(), c);
-        (widened(&self.r[c]), widened::<K, D>(&std::array::from_fn(|i| u[i] - shift[i])))
+        for (c, contact) in contacts.iter_mut().enumerate() {
+            let u = problem.velocity(self.scratch.state(), c);
+            contact.impulse = widened(&self.r[c]);
+            contact.after = widened::<K, D>(&std::array::from_fn(|i| u[i] - contact.form.shift[i]));
+        }
     }
 
-    fn deposit(&self, bodies: &Bodies<S, D, N>, velocity: &mut [[f64; N]]) {
-        for (i, y) in self.scratch.state().iter().enumerate() {
-            for k in 0..L.min(N) {
-                velocity[i][k] += bodies.root_inverse_mass[i][k] * y[k];
-            }
-        }
+    fn deposit(&self, bodies: &Bodies<S, D, N>, middle: &[Pose<S::Rotation, D>], velocity: &mut [[f64; N]]) {
+        self.operator.give(self.scratch.state(), bodies, middle, velocity);
     }
 }

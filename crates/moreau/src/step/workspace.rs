@@ -1,7 +1,7 @@
 //! Scratch of a step: buffers that are written anew each time and kept, and what observers read of the last step.
 
 use super::failed::{Failed, FailedSolve};
-use super::localise::Prepared;
+use super::localise::{Prepared, Spins};
 use super::record::Ledger;
 use super::system::Systems;
 use crate::contacts::{Contact, ContactKey};
@@ -19,7 +19,8 @@ pub struct Localised<const D: usize> {
     pub frame: [[f64; D]; D],
     /// Law in normal form.
     pub form: NormalForm<D>,
-    /// Relative velocity at the beginning of the step, in the frame, m/s.
+    /// Relative velocity at the beginning of the step, in the frame, m/s; where no contact of the step can turn a body (no friction,
+    /// round bodies), the normal part alone.
     pub before: [f64; D],
     /// Relative velocity at the end of the step, in the frame, m/s; where no contact of the step has friction, the normal part alone.
     pub after: [f64; D],
@@ -57,10 +58,11 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) middle: Vec<Pose<S::Rotation, D>>,
     pub(super) reach: Vec<f64>,
     pub(super) found: Vec<Contact<D>>,
-    pub(super) prepared: Vec<Prepared<D, N>>,
+    pub(super) spins: Spins,
+    pub(super) prepared: Vec<Prepared<D>>,
     pub(super) contacts: Vec<Localised<D>>,
     pub(super) previous: Vec<(ContactKey, [f64; D])>,
-    pub(super) systems: Systems<D, N>,
+    pub(super) systems: Systems<S, D, N>,
     pub(super) ledger: Ledger,
     pub(super) before: Option<Before<S, D, N>>,
     pub(super) failed: Failed,
@@ -76,6 +78,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             middle: Vec::new(),
             reach: Vec::new(),
             found: Vec::new(),
+            spins: Spins::default(),
             prepared: Vec::new(),
             contacts: Vec::new(),
             previous: Vec::new(),

@@ -26,7 +26,7 @@ fn entries_become_blocks<const D: usize>() {
     let flat = r.as_flattened();
     let right: Vec<f64> = (0..3 * D).map(|i| w.row(i).map(|(j, x)| x * flat[j]).sum()).collect();
     assert_eq!(product(&stored.operator, &r), right);
-    assert_eq!(stored.operator.diagonal(1), &[[0.0; D]; D]);
+    assert_eq!(stored.operator.diagonal(1), [[0.0; D]; D]);
     assert_eq!(stored.operator.diagonal(0)[1][1], 2.0);
     let places: Vec<_> = stored.operator.blocks().map(|(c, d, _)| (c, d)).collect();
     assert_eq!(places, [(0, 0), (0, 2), (1, 2), (2, 2)]);

@@ -1,0 +1,72 @@
+//! From the problem into the arrays of the kernels, and back.
+
+use super::kernel::{Kernel, Lane};
+use super::{Balls, NONE, Packing};
+use crate::block::Vector;
+use crate::wide::Four;
+use crate::{Cone, Operator, Problem};
+
+impl<K: Kernel<B, C>, const B: usize, const C: usize> Packing<K, B, C> {
+    /// Packs the problem with the impulses to start from.
+    pub(super) fn fill<O: Operator<D>, const D: usize>(
+        &mut self,
+        problem: &Problem<'_, O, D>,
+        balls: &Balls<D>,
+        r: &[Vector<D>],
+    ) {
+        self.layout.arrange(balls);
+        self.bodies(balls);
+        let walls = self.layout.touched.len();
+        self.groups.clear();
+        self.z.clear();
+        for (block, range) in self.layout.blocks.iter().enumerate() {
+            let wall = (walls + block) as u32;
+            for members in &self.layout.members[range.clone()] {
+                let (mut group, mut z) = (K::Group::default(), [Four::default(); C]);
+                for (lane, &c) in members.iter().enumerate() {
+                    if c == NONE {
+                        K::blank(&mut group, wall);
+                        break;
+                    }
+                    let (c, contact) = (c as usize, &balls.contacts[c as usize]);
+                    let rows = contact.pair.map(|body| self.layout.rows.get(body as usize).copied().unwrap_or(wall));
+                    K::fill(&mut group, lane, &Lane { contact, rows, q: &problem.q[c], cone: problem.cones[c] });
+                    let p = K::pack(contact, &r[c]);
+                    for k in 0..C {
+                        z[k].0[lane] = p[k];
+                    }
+                }
+                self.groups.push(group);
+                self.z.push(z);
+            }
+        }
+        self.before.clone_from(&self.z);
+        self.claimed.clone_from(&self.z);
+        self.best.clone_from(&self.z);
+    }
+
+    /// The bodies at rest, each in its row, and a wall for each block.
+    pub(super) fn bodies<const D: usize>(&mut self, balls: &Balls<D>) {
+        self.state.clear();
+        self.state.extend(self.layout.touched.iter().map(|&body| K::body(balls.bodies[body as usize])));
+        self.state.resize(self.layout.touched.len() + self.layout.blocks.len(), [Four::default(); B]);
+    }
+
+    /// Writes the impulses into `r`, and the claimed velocities into `claimed`, both by contact.
+    pub(super) fn read<const D: usize>(&self, balls: &Balls<D>, r: &mut [Vector<D>], claimed: &mut [Vector<D>]) {
+        for ((members, z), u) in self.layout.members.iter().zip(&self.z).zip(&self.claimed) {
+            for (lane, &c) in members.iter().enumerate().filter(|(_, c)| **c != NONE) {
+                let contact = &balls.contacts[c as usize];
+                let of = |all: &[Four; C]| K::unpack(contact, &std::array::from_fn(|k| all[k].0[lane]));
+                (r[c as usize], claimed[c as usize]) = (of(z), of(u));
+            }
+        }
+    }
+}
+
+/// Whether every contact moves and obeys a law that kernels know.
+pub(super) fn suits<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, balls: &Balls<D>) -> bool {
+    let known = |cone: Cone| matches!(cone, Cone::Signorini | Cone::Coulomb(_));
+    let moves = |mobility: f64| mobility.is_normal() && (1.0 / mobility).is_normal();
+    problem.cones.iter().all(|&cone| known(cone)) && balls.contacts.iter().all(|contact| contact.mobility.into_iter().all(moves))
+}
