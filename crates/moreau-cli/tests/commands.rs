@@ -110,7 +110,7 @@ position = [0, 0, 0]
     assert_eq!(row("mass"), "1.256637e1 kg");
     assert_eq!(row("box"), "[0.4000, 0.4000, 0.4000] to [0.6000, 0.6000, 0.6000] m");
     assert_eq!(row("time"), "250 steps of 1e-3 s, to t = 0.250000 s");
-    assert!(row("solver").starts_with("eal inside nlgs"), "{out}");
+    assert!(row("solver").starts_with("eal inside accelerated"), "{out}");
     assert!(row("memory").contains("MiB"), "{out}");
     assert_eq!(place.all(".").len(), 1);
 }

@@ -36,7 +36,7 @@ fn the_summary_has_the_documented_keys() {
     }
     assert_eq!((&summary["steps"], &summary["bodies"], &summary["threads"]), (&20.into(), &15.into(), &1.into()));
     assert_eq!(summary["solver"]["tolerance"], 1e-7);
-    assert_eq!((&summary["solver"]["global"], &summary["solver"]["local"]), (&"nlgs".into(), &"pdas".into()));
+    assert_eq!((&summary["solver"]["global"], &summary["solver"]["local"]), (&"accelerated".into(), &"pdas".into()));
     assert_eq!(summary["version"], env!("CARGO_PKG_VERSION"));
     let parts = ["detect", "localise", "solve", "output"].map(|part| summary["seconds"][part].as_f64().unwrap());
     assert!(parts.iter().all(|&part| part >= 0.0) && parts.iter().sum::<f64>() <= summary["seconds"]["total"].as_f64().unwrap());
@@ -118,7 +118,7 @@ fn only_the_outputs_that_are_asked_for_are_written() {
 fn a_person_gets_a_few_plain_lines() {
     let place = Place::with("ten.toml", TEN);
     let out = place.moreau(&["run", "ten.toml"]).fine();
-    for words in ["20 steps", "15 bodies", "pdas inside nlgs", "every step converged", "results in out/ten"] {
+    for words in ["20 steps", "15 bodies", "pdas inside accelerated", "every step converged", "results in out/ten"] {
         assert!(out.contains(words), "{out}");
     }
     assert!(!out.contains(['\x1b', '\r']), "control codes in a pipe: {out:?}");

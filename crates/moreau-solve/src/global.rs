@@ -196,10 +196,12 @@ pub fn solve<O: Operator<D>, const D: usize>(
     let mut work = Work { problem, settings: *settings, r, scratch, judge: Judge::new(problem, settings), stages: Vec::new() };
     let status = if problem.is_empty() { Status::Converged } else { work.run(settings.global) };
     let Work { r, scratch, judge, mut stages, .. } = work;
-    if status != Status::Converged || judge.certified_at != Some(judge.sweeps) {
+    // What ended the solve has measured all that there is to say.
+    let certificate = judge.certificate.filter(|_| status == Status::Converged);
+    let residual = certificate.unwrap_or_else(|| {
         problem.operator.start(r, &mut scratch.state);
-    }
-    let residual = measure(problem, &scratch.state, r, claims(&scratch.claimed));
+        measure(problem, &scratch.state, r, claims(&scratch.claimed))
+    });
     if stages.is_empty() {
         stages.push(Stage { method: settings.global, sweeps: judge.sweeps, error: residual.of(settings.criterion), status });
     }

@@ -4,7 +4,7 @@ use crate::run::{End, Unwritten, run};
 use crate::space::Space;
 use crate::step::{StepRecord, Workspace, step};
 use crate::world::{OnFailure, World};
-use moreau_solve::{GlobalMethod, HistoryRow, LocalMethod};
+use moreau_solve::{GlobalMethod, HistoryRow, Kernels, LocalMethod};
 use std::sync::atomic::AtomicBool;
 
 /// One pair of methods.
@@ -68,6 +68,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Probe<S, D, N> {
         let mut world = self.before.clone();
         let solver = &mut world.settings.solver;
         (solver.global, solver.local, solver.history) = (methods.0, methods.1, true);
+        solver.kernels = Kernels::Plain;
         let mut work = Workspace::default();
         let converged = step(&mut world, &mut work).is_ok_and(|record| record.converged());
         let difference = if converged { disagreement(&self.after, &world) } else { f64::INFINITY };
@@ -113,7 +114,8 @@ pub fn compare_one<S: Space<D, N>, const D: usize, const N: usize>(
     let (mut history, disagreement) = probe.map_or((Vec::new(), f64::NAN), |probe| probe.take(methods));
     let mut once = || -> Result<Row, Box<Unwritten>> {
         let mut world = start.clone();
-        (world.settings.solver.global, world.settings.solver.local) = methods;
+        let solver = &mut world.settings.solver;
+        (solver.global, solver.local, solver.kernels) = (methods.0, methods.1, Kernels::Plain);
         if world.settings.on_failure == OnFailure::Dump {
             // Nobody writes the problems of a comparison, and to keep them would count as time of the solver.
             world.settings.on_failure = OnFailure::Warn;

@@ -51,6 +51,48 @@ fn a_second_run_and_any_number_of_threads_give_the_same_bits() {
     }
 }
 
+/// FNV-1a, 64 bits.
+fn hash(bits: &[u64]) -> u64 {
+    let bytes = bits.iter().flat_map(|bits| bits.to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+/// The hash of the state after 500 steps.
+fn hash_of_run(file: &str, sets: &[&str], threads: usize, kernels: &str) -> u64 {
+    let kernels = format!("solver.kernels=\"{kernels}\"");
+    let sets: Vec<&str> = sets.iter().copied().chain([kernels.as_str()]).collect();
+    let mut world = scene(file, &sets);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let mut work = Workspace::default();
+        (0..500).for_each(|_| drop(step(&mut world, &mut work).unwrap()));
+    });
+    hash(&bits(&world))
+}
+
+/// Committed states, of x86-64: whoever changes one changes results, and says so.
+#[test]
+fn the_state_after_500_steps_is_the_committed_one_on_any_number_of_threads_and_any_kernels() {
+    let rough = "default_law={ coulomb = { friction = 0.3 } }";
+    let scenes = [
+        ("paper/sedimentation.toml", &[][..], HASHES[0]),
+        ("paper/sedimentation.toml", &[rough, "solver.start=\"warm\""][..], HASHES[1]),
+        // Enough contacts for threads to share the sweeps.
+        ("box-of-balls.toml", &["generate.0.count=2200", "time.step=1e-3"][..], HASHES[2]),
+    ];
+    for (file, sets, committed) in scenes {
+        let ways = [(1, "auto"), (2, "auto"), (3, "auto"), (8, "auto"), (2, "portable")];
+        let found = ways.map(|(threads, kernels)| hash_of_run(file, sets, threads, kernels));
+        assert!(found.iter().all(|&hash| hash == found[0]), "{file}: {found:x?}");
+        if cfg!(target_arch = "x86_64") {
+            assert_eq!(format!("{:016x}", found[0]), committed, "{file} {sets:?}");
+        }
+    }
+}
+
+/// See above.
+const HASHES: [&str; 3] = ["6da3dc6ad0d6477e", "7275a55cc6e8839b", "1cce3c68ffa6cde9"];
+
 /// The same world with its bodies in reverse order.
 fn reversed(world: &SolidWorld) -> SolidWorld {
     let old = &world.bodies;

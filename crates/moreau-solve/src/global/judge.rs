@@ -3,7 +3,7 @@
 use crate::block::Vector;
 use crate::report::{HistoryRow, Status};
 use crate::residual::{criterion, measure};
-use crate::{Operator, Problem, Settings};
+use crate::{Operator, Problem, Residual, Settings};
 use std::time::{Duration, Instant};
 
 /// Watches one solve.
@@ -21,8 +21,8 @@ pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
     pub history: Vec<HistoryRow>,
     /// Visits of the last sweep in which the local solver did not reach its own end.
     pub unfinished_visits: u64,
-    /// The number of sweeps at which the state was made anew from the impulses.
-    pub certified_at: Option<u64>,
+    /// What was measured of a state made anew from the impulses, after the sweep `measured_at`.
+    pub certificate: Option<Residual>,
     next_check: u64,
     skip_to: u64,
 }
@@ -42,7 +42,7 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
             measured_at: 0,
             history: Vec::new(),
             unfinished_visits: 0,
-            certified_at: None,
+            certificate: None,
             next_check: 1,
             skip_to: 0,
         }
@@ -84,8 +84,10 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     /// Makes `state` anew from the impulses and measures that: how the method ends, if it does.
     pub(crate) fn certify(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
         let met = self.confirmed(state, r, claimed);
-        self.record(state, r, claimed);
         self.measured_at = self.sweeps;
+        if let Some(residual) = self.certificate.filter(|_| self.settings.history) {
+            self.history.push(HistoryRow { sweep: self.sweeps, residual });
+        }
         if met { Some(Status::Converged) } else { self.unmet() }
     }
 
@@ -128,8 +130,9 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     /// A state has gathered the rounding of every visit: the verdict is on the impulses alone.
     fn confirmed(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> bool {
         self.problem.operator.start(r, state);
-        self.certified_at = Some(self.sweeps);
-        self.error = self.weigh(state, r, claimed);
+        let residual = measure(self.problem, state, r, claimed);
+        self.error = residual.of(self.settings.criterion);
+        self.certificate = Some(residual);
         self.error <= self.settings.tolerance
     }
 }

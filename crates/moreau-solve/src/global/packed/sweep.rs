@@ -185,7 +185,7 @@ impl<const B: usize> WithWide for Extrapolate<'_, B> {
 }
 
 /// A sweep takes several threads where there are so many blocks to share.
-const WORTH_SHARING: usize = 16;
+const WORTH_SHARING: usize = 4;
 
 /// So many bodies are one task.
 const BODIES: usize = 2048;

@@ -1,0 +1,54 @@
+//! A step in a steady state allocates nothing but the list of stages in its solver's report.
+
+use moreau::scene::{AnyWorld, Scene};
+use moreau::step::{Workspace, step};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The system's allocator, counting.
+struct Counting;
+
+static COUNT: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call goes to the system's allocator as it came.
+#[allow(unsafe_code)]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn balls_at_rest_take_steps_without_allocations() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/box-of-balls.toml");
+    for law in ["frictionless = {}", "coulomb = { friction = 0.3 }"] {
+        let sets = ["generate.0.count=100".to_owned(), "time.step=1e-3".to_owned(), format!("default_law={{ {law} }}")];
+        let scene = Scene::load_with(&path, &sets).unwrap_or_else(|error| panic!("{error}"));
+        let AnyWorld::Solid(mut world) = scene.build(u64::MAX).unwrap() else { panic!("a scene in space") };
+        let mut work = Workspace::default();
+        let mut steps = |count: usize| {
+            let before = COUNT.load(Ordering::Relaxed);
+            let contacts = (0..count).map(|_| step(&mut world, &mut work).unwrap().contacts).max();
+            (COUNT.load(Ordering::Relaxed) - before, contacts)
+        };
+        steps(2500);
+        let (allocations, contacts) = steps(500);
+        assert!(contacts > Some(100), "{contacts:?} contacts are no heap");
+        // Now and then a heap that still creeps has a contact more than ever before.
+        assert!(allocations <= 500 + 10, "{law}: {allocations} allocations in 500 steps");
+    }
+}
