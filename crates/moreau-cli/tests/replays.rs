@@ -59,7 +59,7 @@ fn a_failed_step_is_solved_again_from_its_file() {
 fn the_same_settings_fail_in_the_same_way() {
     let place = Place::with("ten.toml", TEN);
     // A stored W does not know of colours: the order is that of the contacts.
-    place.moreau(&[&DUMP[..], &["--set", "solver.order=natural"]].concat()).fine();
+    place.moreau(&[&DUMP[..], &["--set", "solver.order=natural", "--set", "solver.global=nlgs"]].concat()).fine();
     let name = format!("out/ten/{}", dumped(&place, "out/ten").last().unwrap());
     let words = ["solve", &name, "--start", "guess", "--max-sweeps", "3", "--tolerance", "1e-9", "--criterion", "eps_glob"];
     let ran = place.moreau(&[&words[..], &["--global", "nlgs", "--out", "again.hdf5", "--json"]].concat());

@@ -65,7 +65,9 @@ fn hash_of_run(file: &str, sets: &[&str], threads: usize, kernels: &str) -> u64 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| {
         let mut work = Workspace::default();
-        (0..500).for_each(|_| drop(step(&mut world, &mut work).unwrap()));
+        for _ in 0..500 {
+            step(&mut world, &mut work).unwrap();
+        }
     });
     hash(&bits(&world))
 }
