@@ -36,6 +36,7 @@ mod problem;
 mod report;
 pub mod residual;
 mod settings;
+pub mod tasks;
 mod wide;
 
 pub use cone::Cone;

@@ -15,7 +15,7 @@ use std::borrow::Cow;
 /// What a Gauss-Seidel sweep asks of W. `State` stands for the impulses applied so far.
 pub trait Operator<const D: usize>: Sync {
     /// Body velocities, or the impulses themselves.
-    type State: Default + Clone + Send;
+    type State: Default + Clone + Send + Sync;
 
     /// Makes `state` that of the impulses `r`, from nothing.
     fn start(&self, r: &[Vector<D>], state: &mut Self::State);

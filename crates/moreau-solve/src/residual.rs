@@ -25,7 +25,9 @@
 //! ```
 
 use crate::block::{Matrix, Vector, axpy, dot, norm, sub, tangent_norm};
+use crate::tasks::fold;
 use crate::{Cone, Criterion, Operator, Problem};
+use std::ops::Range;
 
 /// The three parts of ε_glob, each a mean over the contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -140,26 +142,8 @@ pub fn measure<O: Operator<D>, const D: usize>(
     r: &[Vector<D>],
     claimed: Option<&[Vector<D>]>,
 ) -> Residual {
-    let (mut motion, mut outside, mut power, mut speeds, mut errors) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    let (mut eps, mut plain) = (EpsGlob::default(), Plain::default());
-    let mut worst: Option<Worst> = None;
-    for c in 0..problem.len() {
-        let velocity = problem.velocity(state, c);
-        eps.add(&eps_glob(problem.cones[c], claimed.map_or(&velocity, |claimed| &claimed[c]), &velocity, &r[c]));
-        plain.add(problem, c, &velocity, &r[c]);
-        let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
-        speeds += squared(&q) + squared(&u);
-        motion += claimed.map_or(0.0, |claimed| squared(&sub(&in_one_unit(problem, c, &claimed[c], &r).u, &u)));
-        let (beyond, normalised) = if D == 1 { pair_of_one(w, u[0], r[0]) } else { pair_of_cones(cone, w, &u, &r) };
-        outside += beyond * beyond;
-        power += normalised * normalised;
-        let error = natural(cone, w, &u, &r);
-        errors += error * error;
-        // Also where it is no number, which no comparison would find.
-        if worst.is_none_or(|worst| !worst.error.is_nan() && (error.is_nan() || error > worst.error)) {
-            worst = Some(Worst { contact: c, error });
-        }
-    }
+    let parts = fold(0..problem.len(), &|range| measured(problem, state, r, claimed, range), &Measures::with);
+    let Measures { eps, plain, motion, outside, power, speeds, errors, worst } = parts;
     Residual {
         eps_glob: eps.mean(problem.len()),
         scaled: ratio(errors, speeds),
@@ -169,6 +153,67 @@ pub fn measure<O: Operator<D>, const D: usize>(
         complementarity: ratio(power, speeds),
         worst,
     }
+}
+
+/// The sums of all measures over some contacts.
+#[derive(Clone, Copy, Default)]
+struct Measures {
+    eps: EpsGlob,
+    plain: Plain,
+    motion: f64,
+    outside: f64,
+    power: f64,
+    speeds: f64,
+    errors: f64,
+    worst: Option<Worst>,
+}
+
+impl Measures {
+    /// Both together.
+    fn with(mut self, other: Self) -> Self {
+        self.eps.add(&other.eps);
+        self.plain.with(&other.plain);
+        self.motion += other.motion;
+        self.outside += other.outside;
+        self.power += other.power;
+        self.speeds += other.speeds;
+        self.errors += other.errors;
+        other.worst.into_iter().for_each(|worst| self.meet(worst));
+        self
+    }
+
+    /// Keeps the worse of two: also where one is no number, which no comparison would find.
+    #[inline]
+    fn meet(&mut self, other: Worst) {
+        if self.worst.is_none_or(|worst| !worst.error.is_nan() && (other.error.is_nan() || other.error > worst.error)) {
+            self.worst = Some(other);
+        }
+    }
+}
+
+fn measured<O: Operator<D>, const D: usize>(
+    problem: &Problem<'_, O, D>,
+    state: &O::State,
+    r: &[Vector<D>],
+    claimed: Option<&[Vector<D>]>,
+    range: Range<usize>,
+) -> Measures {
+    let mut all = Measures::default();
+    for c in range {
+        let velocity = problem.velocity(state, c);
+        all.eps.add(&eps_glob(problem.cones[c], claimed.map_or(&velocity, |claimed| &claimed[c]), &velocity, &r[c]));
+        all.plain.add(problem, c, &velocity, &r[c]);
+        let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
+        all.speeds += squared(&q) + squared(&u);
+        all.motion += claimed.map_or(0.0, |claimed| squared(&sub(&in_one_unit(problem, c, &claimed[c], &r).u, &u)));
+        let (beyond, normalised) = if D == 1 { pair_of_one(w, u[0], r[0]) } else { pair_of_cones(cone, w, &u, &r) };
+        all.outside += beyond * beyond;
+        all.power += normalised * normalised;
+        let error = natural(cone, w, &u, &r);
+        all.errors += error * error;
+        all.meet(Worst { contact: c, error });
+    }
+    all
 }
 
 /// w dist(r, K) + dist(û, K*), and w |û·r| / (w ‖r‖ + ‖û‖).
@@ -188,7 +233,7 @@ fn pair_of_one(w: f64, u: f64, r: f64) -> (f64, f64) {
 }
 
 /// The sums of Siconos's residual.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Plain {
     errors: f64,
     qq: f64,
@@ -205,6 +250,13 @@ impl Plain {
         self.qq += squared(&seen(cone, &problem.q[c]));
         self.rr += squared(r);
         self.uu += squared(&seen(cone, u));
+    }
+
+    fn with(&mut self, other: &Self) {
+        self.errors += other.errors;
+        self.qq += other.qq;
+        self.rr += other.rr;
+        self.uu += other.uu;
     }
 
     fn ratio(&self) -> f64 {

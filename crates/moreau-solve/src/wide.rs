@@ -1,8 +1,9 @@
 //! Four numbers at a time: what the packed kernels are written in.
 //!
 //! A kernel is written once, over [`Wide`], and compiled twice: for processors with 256-bit registers ([`v3`]), found when the
-//! program runs, and portably. Both do the same operations in the same order on each lane, and neither contracts a product with a
-//! sum, so both give the same bits.
+//! program runs, and portably. Both do the same operations in the same order on each lane, and fuse a product with a sum where the
+//! kernel says so and nowhere else, so both give the same bits. (Where a processor has no fused operation the portable ones are slow:
+//! that is x86 before 2013.)
 
 mod portable;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -53,6 +54,10 @@ pub(crate) trait Wide: Copy {
     fn sub(self, a: Self::F, b: Self::F) -> Self::F;
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    /// a + b c, rounded once.
+    fn more(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
+    /// a − b c, rounded once.
+    fn less(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     fn sqrt(self, a: Self::F) -> Self::F;
     /// a where a > b, else b: also where one is no number, so NaN passes through the second.
     fn max(self, a: Self::F, b: Self::F) -> Self::F;
@@ -103,8 +108,17 @@ mod tests {
         fn run<W: Wide>(self, w: W) -> Vec<Four> {
             let (a, b) = (w.load(&self.0), w.load(&self.1));
             let mixed = [a, b, w.add(a, b), w.splat(&self.1.0[2])];
-            let mut out =
-                vec![w.sub(a, b), w.mul(a, b), w.div(a, b), w.sqrt(w.mul(a, a)), w.max(a, b), w.min(a, b), w.sums(mixed)];
+            let mut out = vec![
+                w.sub(a, b),
+                w.more(a, a, b),
+                w.less(a, b, b),
+                w.mul(a, b),
+                w.div(a, b),
+                w.sqrt(w.mul(a, a)),
+                w.max(a, b),
+                w.min(a, b),
+                w.sums(mixed),
+            ];
             out.extend(w.transpose(mixed));
             out.into_iter().map(|x| w.store(x)).collect()
         }
@@ -129,7 +143,7 @@ mod tests {
     fn what_is_no_number_passes_the_maximum() {
         let [a, b] = [Four([0.0; 4]), Four([f64::NAN, -1.0, 1.0, 0.0])];
         for kernels in [Kernels::Auto, Kernels::Portable] {
-            let max = with_wide(kernels, All(a, b))[4].0;
+            let max = with_wide(kernels, All(a, b))[6].0;
             assert!(max[0].is_nan());
             assert_eq!(max[1..], [0.0, 1.0, 0.0]);
         }

@@ -4,7 +4,8 @@
 //! repeat until the criterion is met:
 //!   z⁺ = one sweep of NLGS from y                               f = z⁺ − y, what the sweep changed
 //!   if mixing the last five changes would leave less than 0.2 ‖f‖ of f:      y = P_K(z⁺ − Σ γ_j Δz_j)     (Anderson)
-//!   else if f points against the way just gone, f·(z⁺ − z) < 0.2 ‖f‖ ‖z⁺ − z‖:   y = z⁺, shorter momentum    (restart)
+//!   else if f points against the way just gone, f·(z⁺ − z) < 0.2 ‖f‖ ‖z⁺ − z‖,
+//!        or has grown, ‖f‖² > 1.1 ‖f₋‖²:                        y = z⁺, shorter momentum               (restart)
 //!   else                                                        y = z⁺ + β (z⁺ − z), longer momentum     (Nesterov)
 //!   z = z⁺
 //! ```
@@ -34,16 +35,21 @@ const OFFSET: f64 = 0.5;
 const SHORTENED: f64 = 0.6;
 /// The cosine of the angle to the way just gone below which a change of the impulses counts as against it.
 const AGAINST: f64 = 0.2;
+/// How much the square of the change may grow from sweep to sweep. Without friction it hardly grows; with it momentum may drive contacts
+/// from sticking to sliding and back, which the angle alone sees too late.
+const GROWTH: f64 = 1.1;
 
 /// How far the next sweep is to go beyond the last.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Momentum {
     t: f64,
+    /// ‖f₋‖.
+    last: f64,
 }
 
 impl Default for Momentum {
     fn default() -> Self {
-        Self { t: 1.0 }
+        Self { t: 1.0, last: f64::INFINITY }
     }
 }
 
@@ -51,7 +57,8 @@ impl Momentum {
     /// β after a sweep that changed the impulses by ‖f‖ = `change`, on a way ‖z⁺ − z‖ = `length`, with f·(z⁺ − z) = `along`; zero is
     /// a restart.
     pub(super) fn after(&mut self, change: f64, length: f64, along: f64) -> f64 {
-        if along < AGAINST * change * length {
+        let last = std::mem::replace(&mut self.last, change);
+        if along < AGAINST * change * length || change * change > GROWTH * last * last {
             self.t = (SHORTENED * self.t).max(1.0);
             return 0.0;
         }

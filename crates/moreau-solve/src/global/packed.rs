@@ -17,6 +17,7 @@ mod shared;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod vector;
 
 pub(super) use drive::run;
 

@@ -13,6 +13,7 @@
 
 use super::{Delassus, MatrixFree, NONE, Operator, colouring};
 use crate::block::{Matrix, Vector};
+use crate::tasks;
 use std::borrow::Cow;
 
 /// Velocity and spin of a body in space, each filled up to four numbers: a processor reads them at once.
@@ -67,11 +68,13 @@ impl<const K: usize> Balls<K> {
 
     /// Adds a contact of the bodies `pair` (indices, or [`NONE`]) with its frame and arms as in [`RoundContact`].
     pub fn push(&mut self, pair: [u32; 2], frame: [[f64; 3]; K], arms: [f64; 2]) {
-        debug_assert!(pair.iter().all(|&b| b == NONE || (b as usize) < self.bodies.len()));
-        let [a, b] = pair.map(|body| self.body(body));
-        let normal = a.inverse_mass + b.inverse_mass;
-        let turned = arms[0] * arms[0] * a.inverse_inertia + arms[1] * arms[1] * b.inverse_inertia;
-        self.contacts.push(RoundContact { pair, frame, arms, mobility: [normal, normal + turned] });
+        self.contacts.push(contact(&self.bodies, (pair, frame, arms)));
+    }
+
+    /// Takes these `n` contacts in the place of those that it had: the same as a [`push`](Self::push) of each, by several threads.
+    pub fn fill(&mut self, n: usize, of: impl Fn(usize) -> ([u32; 2], [[f64; 3]; K], [f64; 2]) + Sync + Send) {
+        let bodies = &self.bodies;
+        tasks::fill(&mut self.contacts, n, |c| contact(bodies, of(c)));
     }
 
     /// How many contacts it has.
@@ -87,7 +90,7 @@ impl<const K: usize> Balls<K> {
     /// What impulses do to a body.
     #[inline(always)]
     fn body(&self, body: u32) -> RoundBody {
-        self.bodies.get(body as usize).copied().unwrap_or_default()
+        read_body(&self.bodies, body)
     }
 
     /// The same W with general rows.
@@ -106,6 +109,20 @@ impl<const K: usize> Balls<K> {
         }
         general
     }
+}
+
+#[inline(always)]
+fn read_body(bodies: &[RoundBody], body: u32) -> RoundBody {
+    bodies.get(body as usize).copied().unwrap_or_default()
+}
+
+/// A contact with its mobility.
+fn contact<const K: usize>(bodies: &[RoundBody], (pair, frame, arms): ([u32; 2], [[f64; 3]; K], [f64; 2])) -> RoundContact<K> {
+    debug_assert!(pair.iter().all(|&b| b == NONE || (b as usize) < bodies.len()));
+    let [a, b] = pair.map(|body| read_body(bodies, body));
+    let normal = a.inverse_mass + b.inverse_mass;
+    let turned = arms[0] * arms[0] * a.inverse_inertia + arms[1] * arms[1] * b.inverse_inertia;
+    RoundContact { pair, frame, arms, mobility: [normal, normal + turned] }
 }
 
 /// a × b.

@@ -50,6 +50,16 @@ impl Wide for Portable {
     }
 
     #[inline(always)]
+    fn more(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        each(|i| b[i].mul_add(c[i], a[i]))
+    }
+
+    #[inline(always)]
+    fn less(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        each(|i| (-b[i]).mul_add(c[i], a[i]))
+    }
+
+    #[inline(always)]
     fn sqrt(self, a: Self::F) -> Self::F {
         a.map(f64::sqrt)
     }

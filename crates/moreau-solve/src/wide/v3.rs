@@ -75,6 +75,16 @@ impl Wide for V3 {
     }
 
     #[inline(always)]
+    fn more(self, a: Register, b: Register, c: Register) -> Register {
+        self.0.fma._mm256_fmadd_pd(b, c, a)
+    }
+
+    #[inline(always)]
+    fn less(self, a: Register, b: Register, c: Register) -> Register {
+        self.0.fma._mm256_fnmadd_pd(b, c, a)
+    }
+
+    #[inline(always)]
     fn sqrt(self, a: Register) -> Register {
         self.0.avx._mm256_sqrt_pd(a)
     }

@@ -3,6 +3,9 @@
 //! ```text
 //! u = n·(v_b − v_a) + q,    r ← max(0, r − u/w)            exact: PDAS's step with γ = 1/w
 //! ```
+//!
+//! With r̂ = √w r, û = u/√w and n̂ = n/√w nothing of w is left: û = n̂·(v_b − v_a) + q̂, r̂ ← max(0, r̂ − û), and the bodies get n̂ times
+//! the change of r̂.
 
 use super::kernel::{Kernel, Lane, Places, Sides};
 use crate::block::Vector;
@@ -13,21 +16,19 @@ use crate::wide::{Four, LANES, Wide};
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Central;
 
-/// Four contacts; 56 bytes each.
+/// Four contacts; 48 bytes each.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Group {
-    /// Normals, a row a contact, the last number zero.
+    /// n̂, a row a contact, the last number zero.
     n: [Four; LANES],
-    /// 1/w.
-    inverse: Four,
     q: Four,
     pairs: [[u32; 2]; LANES],
 }
 
 impl Default for Group {
     fn default() -> Self {
-        Self { n: Default::default(), inverse: Four([1.0; LANES]), q: Four::default(), pairs: [[u32::MAX; 2]; LANES] }
+        Self { n: Default::default(), q: Four::default(), pairs: [[u32::MAX; 2]; LANES] }
     }
 }
 
@@ -40,10 +41,10 @@ impl Kernel<1, 1> for Central {
 
     #[inline(always)]
     fn fill<const D: usize>(group: &mut Group, lane: usize, contact: &Lane<'_, D>) {
+        let by = 1.0 / Self::scale(contact.contact);
         let [x, y, z] = contact.contact.frame[0];
-        group.n[lane] = Four([x, y, z, 0.0]);
-        group.inverse.0[lane] = 1.0 / contact.contact.mobility[0];
-        group.q.0[lane] = contact.q[0];
+        group.n[lane] = Four([by * x, by * y, by * z, 0.0]);
+        [group.q.0[lane]] = Self::pack(contact.contact, contact.q, by);
         group.pairs[lane] = contact.rows;
     }
 
@@ -54,13 +55,18 @@ impl Kernel<1, 1> for Central {
     }
 
     #[inline(always)]
-    fn pack<const D: usize>(_: &RoundContact<D>, r: &Vector<D>) -> [f64; 1] {
-        [r[0]]
+    fn scale<const D: usize>(contact: &RoundContact<D>) -> f64 {
+        contact.mobility[0].sqrt()
     }
 
     #[inline(always)]
-    fn unpack<const D: usize>(_: &RoundContact<D>, p: &[f64; 1]) -> Vector<D> {
-        std::array::from_fn(|i| if i == 0 { p[0] } else { 0.0 })
+    fn pack<const D: usize>(_: &RoundContact<D>, x: &Vector<D>, by: f64) -> [f64; 1] {
+        [by * x[0]]
+    }
+
+    #[inline(always)]
+    fn unpack<const D: usize>(_: &RoundContact<D>, x: &[f64; 1], by: f64) -> Vector<D> {
+        std::array::from_fn(|i| if i == 0 { by * x[0] } else { 0.0 })
     }
 
     #[inline(always)]
@@ -78,14 +84,13 @@ impl Kernel<1, 1> for Central {
     }
 
     #[inline(always)]
-    fn visit<W: Wide>(w: W, group: &Group, y: &[W::F; 1], u: &[W::F; 1]) -> [W::F; 1] {
-        let pressed = w.sub(y[0], w.mul(w.load(&group.inverse), u[0]));
-        [w.max(w.zero(), pressed)]
+    fn visit<W: Wide>(w: W, _: &Group, y: &[W::F; 1], u: &[W::F; 1]) -> [W::F; 1] {
+        [w.max(w.zero(), w.sub(y[0], u[0]))]
     }
 
     #[inline(always)]
-    fn claim<W: Wide>(w: W, group: &Group, u: &[W::F; 1], change: &[W::F; 1]) -> [W::F; 1] {
-        [w.add(u[0], w.div(change[0], w.load(&group.inverse)))]
+    fn claim<W: Wide>(w: W, _: &Group, u: &[W::F; 1], change: &[W::F; 1]) -> [W::F; 1] {
+        [w.add(u[0], change[0])]
     }
 
     #[inline(always)]
@@ -103,19 +108,19 @@ impl Kernel<1, 1> for Central {
             let p = w.mul(w.load(&group.n[i]), w.splat(&change.0[i]));
             let (at_a, at_b) = (pairs[i][0] as usize, pairs[i][1] as usize);
             let (by_a, by_b) = (w.splat(&bodies.get(at_a)[0].0[3]), w.splat(&bodies.get(at_b)[0].0[3]));
-            bodies.set(at_a, [w.store(w.sub(a[i][0], w.mul(p, by_a)))]);
-            bodies.set(at_b, [w.store(w.add(b[i][0], w.mul(p, by_b)))]);
+            bodies.set(at_a, [w.store(w.less(a[i][0], p, by_a))]);
+            bodies.set(at_b, [w.store(w.more(b[i][0], p, by_b))]);
         }
     }
 
     #[inline(always)]
-    fn weight<W: Wide>(w: W, group: &Group) -> W::F {
-        w.div(w.splat(&1.0), w.load(&group.inverse))
-    }
-
-    #[inline(always)]
-    fn apart<W: Wide>(w: W, _: &Group, claimed: &[W::F; 1], u: &[W::F; 1]) -> W::F {
+    fn apart<W: Wide>(w: W, group: &Group, claimed: &[W::F; 1], u: &[W::F; 1]) -> W::F {
+        let mut squares = [w.zero(); LANES];
+        for i in 0..LANES {
+            squares[i] = w.mul(w.load(&group.n[i]), w.load(&group.n[i]));
+        }
         let apart = w.sub(claimed[0], u[0]);
-        w.mul(apart, apart)
+        // ‖n̂‖² = 1/w; an empty lane has none, and nothing apart.
+        w.div(w.mul(apart, apart), w.max(w.sums(squares), w.splat(&f64::MIN_POSITIVE)))
     }
 }

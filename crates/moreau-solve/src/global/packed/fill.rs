@@ -3,7 +3,8 @@
 use super::kernel::{Kernel, Lane};
 use super::{Balls, NONE, Packing};
 use crate::block::Vector;
-use crate::wide::Four;
+use crate::tasks;
+use crate::wide::{Four, LANES};
 use crate::{Cone, Operator, Problem};
 
 impl<K: Kernel<B, C>, const B: usize, const C: usize> Packing<K, B, C> {
@@ -16,30 +17,33 @@ impl<K: Kernel<B, C>, const B: usize, const C: usize> Packing<K, B, C> {
     ) {
         self.layout.arrange(balls);
         self.bodies(balls);
-        let walls = self.layout.touched.len();
-        self.groups.clear();
-        self.z.clear();
-        for (block, range) in self.layout.blocks.iter().enumerate() {
-            let wall = (walls + block) as u32;
-            for members in &self.layout.members[range.clone()] {
-                let (mut group, mut z) = (K::Group::default(), [Four::default(); C]);
-                for (lane, &c) in members.iter().enumerate() {
-                    if c == NONE {
-                        K::blank(&mut group, wall);
-                        break;
-                    }
-                    let (c, contact) = (c as usize, &balls.contacts[c as usize]);
-                    let rows = contact.pair.map(|body| self.layout.rows.get(body as usize).copied().unwrap_or(wall));
-                    K::fill(&mut group, lane, &Lane { contact, rows, q: &problem.q[c], cone: problem.cones[c] });
-                    let p = K::pack(contact, &r[c]);
-                    for k in 0..C {
-                        z[k].0[lane] = p[k];
-                    }
+        let layout = &self.layout;
+        tasks::fill(&mut self.groups, layout.members.len(), |g| {
+            let block = layout.blocks.partition_point(|groups| groups.end <= g);
+            let wall = (layout.touched.len() + block) as u32;
+            let mut group = K::Group::default();
+            for (lane, &c) in layout.members[g].iter().enumerate() {
+                if c == NONE {
+                    K::blank(&mut group, wall);
+                    break;
                 }
-                self.groups.push(group);
-                self.z.push(z);
+                let (c, contact) = (c as usize, &balls.contacts[c as usize]);
+                let rows = contact.pair.map(|body| layout.rows.get(body as usize).copied().unwrap_or(wall));
+                K::fill(&mut group, lane, &Lane { contact, rows, q: &problem.q[c], cone: problem.cones[c] });
             }
-        }
+            group
+        });
+        tasks::fill(&mut self.z, layout.members.len(), |g| {
+            let mut z = [Four::default(); C];
+            for (lane, &c) in layout.members[g].iter().enumerate().filter(|(_, c)| **c != NONE) {
+                let contact = &balls.contacts[c as usize];
+                let p = K::pack(contact, &r[c as usize], K::scale(contact));
+                for k in 0..C {
+                    z[k].0[lane] = p[k];
+                }
+            }
+            z
+        });
         self.before.clone_from(&self.z);
         self.claimed.clone_from(&self.z);
         self.best.clone_from(&self.z);
@@ -54,13 +58,14 @@ impl<K: Kernel<B, C>, const B: usize, const C: usize> Packing<K, B, C> {
 
     /// Writes the impulses into `r`, and the claimed velocities into `claimed`, both by contact.
     pub(super) fn read<const D: usize>(&self, balls: &Balls<D>, r: &mut [Vector<D>], claimed: &mut [Vector<D>]) {
-        for ((members, z), u) in self.layout.members.iter().zip(&self.z).zip(&self.claimed) {
-            for (lane, &c) in members.iter().enumerate().filter(|(_, c)| **c != NONE) {
-                let contact = &balls.contacts[c as usize];
-                let of = |all: &[Four; C]| K::unpack(contact, &std::array::from_fn(|k| all[k].0[lane]));
-                (r[c as usize], claimed[c as usize]) = (of(z), of(u));
-            }
-        }
+        let of = |all: &[[Four; C]], c: usize| {
+            let slot = self.layout.slots[c] as usize;
+            let group = &all[slot / LANES];
+            std::array::from_fn(|k| group[k].0[slot % LANES])
+        };
+        let contact = |c: usize| &balls.contacts[c];
+        tasks::each(r, |c, r| *r = K::unpack(contact(c), &of(&self.z, c), 1.0 / K::scale(contact(c))));
+        tasks::each(claimed, |c, u| *u = K::unpack(contact(c), &of(&self.claimed, c), K::scale(contact(c))));
     }
 }
 

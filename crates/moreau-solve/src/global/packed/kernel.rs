@@ -52,6 +52,9 @@ impl<T> Places<T> for &mut [T] {
 }
 
 /// One law for four contacts, with B rows of four numbers a body and C components an impulse.
+///
+/// Kernels count in the norm of the diagonal of W: with its largest entry w, impulses are √w times the problem's and velocities 1/√w
+/// times, so that a visit knows no other unit and sums of squares need no weights.
 pub(crate) trait Kernel<const B: usize, const C: usize>: 'static {
     /// All that is read of four contacts; its default is four empty lanes.
     type Group: Copy + Clone + std::fmt::Debug + Default + Send + Sync;
@@ -62,10 +65,12 @@ pub(crate) trait Kernel<const B: usize, const C: usize>: 'static {
     fn fill<const D: usize>(group: &mut Self::Group, lane: usize, contact: &Lane<'_, D>);
     /// Gives empty lanes a body that is none.
     fn blank(group: &mut Self::Group, row: u32);
-    /// An impulse in the kernel's components.
-    fn pack<const D: usize>(contact: &RoundContact<D>, r: &Vector<D>) -> [f64; C];
-    /// The same back in the contact's frame.
-    fn unpack<const D: usize>(contact: &RoundContact<D>, p: &[f64; C]) -> Vector<D>;
+    /// √w.
+    fn scale<const D: usize>(contact: &RoundContact<D>) -> f64;
+    /// `by` times an impulse or velocity, in the kernel's components.
+    fn pack<const D: usize>(contact: &RoundContact<D>, x: &Vector<D>, by: f64) -> [f64; C];
+    /// `by` times what is in the kernel's components, in the contact's frame.
+    fn unpack<const D: usize>(contact: &RoundContact<D>, x: &[f64; C], by: f64) -> Vector<D>;
 
     /// Rows of the two bodies of each contact.
     fn pairs(group: &Self::Group) -> &[[u32; 2]; LANES];
@@ -84,8 +89,6 @@ pub(crate) trait Kernel<const B: usize, const C: usize>: 'static {
         sides: &Sides<W::F, B>,
         change: &[W::F; C],
     );
-    /// w, by which squares of impulses are weighed.
-    fn weight<W: Wide>(w: W, group: &Self::Group) -> W::F;
-    /// ‖ũ − u‖², of the components that the law knows.
+    /// ‖ũ − u‖², of the components that the law knows, in the problem's unit.
     fn apart<W: Wide>(w: W, group: &Self::Group, claimed: &[W::F; C], u: &[W::F; C]) -> W::F;
 }

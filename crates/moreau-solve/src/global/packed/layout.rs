@@ -17,6 +17,8 @@ const COLOURS: usize = 64;
 pub(super) struct Layout {
     /// The contacts of each group.
     pub(super) members: Vec<Members>,
+    /// Where each contact is: the number of its group, times the lanes, plus its lane.
+    pub(super) slots: Vec<u32>,
     /// The groups of each block.
     pub(super) blocks: Vec<Range<usize>>,
     /// The blocks of each wave, which share no body.
@@ -39,6 +41,8 @@ impl Layout {
     /// Makes it anew.
     pub(super) fn arrange<const D: usize>(&mut self, balls: &Balls<D>) {
         self.members.clear();
+        self.slots.clear();
+        self.slots.resize(balls.len(), NONE);
         self.blocks.clear();
         self.waves.clear();
         self.sort(balls);
@@ -143,8 +147,9 @@ impl Layout {
             // What no colour was left for stands alone.
             let size = if colour < COLOURS { LANES } else { 1 };
             for chunk in self.spare[starts[colour]..starts[colour + 1]].chunks(size) {
-                let mut members = [NONE; LANES];
+                let (mut members, slot) = ([NONE; LANES], (self.members.len() * LANES) as u32);
                 members[..chunk.len()].copy_from_slice(chunk);
+                chunk.iter().zip(slot..).for_each(|(&c, slot)| self.slots[c as usize] = slot);
                 self.members.push(members);
             }
         }

@@ -1,8 +1,8 @@
 //! Arrays that the blocks of one wave write at the same time.
 //!
 //! Blocks of a wave share no body and no group, but the compiler cannot know: that is what the layout is for. The twin of this file
-//! is the impl for slices in `kernel.rs`, which one thread uses; tests hold the two against each other bit by bit. Two threads gained
-//! 1.8 over one on 300 000 contacts (docs/performance.md), which no safe way without a copy of all bodies would.
+//! is the impl for slices in `kernel.rs`, which one thread uses; tests hold the two against each other bit by bit. What
+//! threads gain by it, and what the safe way of a copy of all bodies for each would cost, is in docs/performance.md.
 
 #![allow(unsafe_code)]
 

@@ -3,6 +3,7 @@
 use super::Packing;
 use super::kernel::{Kernel, Places, Seen, Sides};
 use super::shared::Shared;
+use super::vector::{along, load, minus, more_dot, store};
 use crate::wide::{Four, Kernels, LANES, Wide, WithWide, total, with_wide};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -34,52 +35,6 @@ fn sides<W: Wide, const B: usize>(w: W, bodies: &impl Seen<[Four; B]>, pairs: &[
         }
     }
     sides
-}
-
-#[inline(always)]
-fn load<W: Wide, const C: usize>(w: W, x: &[Four; C]) -> [W::F; C] {
-    let mut out = [w.zero(); C];
-    for k in 0..C {
-        out[k] = w.load(&x[k]);
-    }
-    out
-}
-
-#[inline(always)]
-fn store<W: Wide, const C: usize>(w: W, x: [W::F; C]) -> [Four; C] {
-    let mut out = [Four::default(); C];
-    for k in 0..C {
-        out[k] = w.store(x[k]);
-    }
-    out
-}
-
-/// a + s b.
-#[inline(always)]
-fn along<W: Wide, const C: usize>(w: W, a: &[W::F; C], s: W::F, b: &[W::F; C]) -> [W::F; C] {
-    let mut out = *a;
-    for k in 0..C {
-        out[k] = w.add(a[k], w.mul(s, b[k]));
-    }
-    out
-}
-
-#[inline(always)]
-fn minus<W: Wide, const C: usize>(w: W, a: &[W::F; C], b: &[W::F; C]) -> [W::F; C] {
-    let mut out = *a;
-    for k in 0..C {
-        out[k] = w.sub(a[k], b[k]);
-    }
-    out
-}
-
-#[inline(always)]
-fn dot<W: Wide, const C: usize>(w: W, a: &[W::F; C], b: &[W::F; C]) -> W::F {
-    let mut sum = w.mul(a[0], b[0]);
-    for k in 1..C {
-        sum = w.add(sum, w.mul(a[k], b[k]));
-    }
-    sum
 }
 
 impl<K: Kernel<B, C>, P: Places<[Four; B]>, const B: usize, const C: usize> Block<'_, K, P, B, C> {
@@ -120,10 +75,10 @@ impl<K: Kernel<B, C>, P: Places<[Four; B]>, const B: usize, const C: usize, cons
             if CLAIM {
                 claimed[g] = store(w, K::claim(w, group, &u, &change));
             }
-            let (way, weight) = (minus(w, &next, &now), K::weight(w, group));
-            changed = w.add(changed, w.mul(weight, dot(w, &change, &change)));
-            walked = w.add(walked, w.mul(weight, dot(w, &way, &way)));
-            together = w.add(together, w.mul(weight, dot(w, &change, &way)));
+            let way = minus(w, &next, &now);
+            changed = more_dot(w, changed, &change, &change);
+            walked = more_dot(w, walked, &way, &way);
+            together = more_dot(w, together, &change, &way);
         }
         [total(&w.store(changed)), total(&w.store(walked)), total(&w.store(together))]
     }
@@ -178,7 +133,7 @@ impl<const B: usize> WithWide for Extrapolate<'_, B> {
         let beta = w.splat(&beta);
         for (now, before) in state.as_flattened_mut().iter_mut().zip(earlier.as_flattened_mut()) {
             let kept = w.load(now);
-            *now = w.store(w.add(kept, w.mul(beta, w.sub(kept, w.load(before)))));
+            *now = w.store(w.more(kept, beta, w.sub(kept, w.load(before))));
             *before = w.store(kept);
         }
     }
