@@ -5,6 +5,7 @@
 //! diagonal and constant. Positions are updated from the start of the step by θ-averaged velocities (eq. 13 of Barboteu & Dumont
 //! 2017), rotations by the Cayley map, which needs no trigonometry and keeps the angular momentum of a free body exactly.
 
+pub(crate) mod curve;
 mod plane;
 mod solid;
 
@@ -12,6 +13,8 @@ pub use plane::Plane;
 pub use solid::Solid;
 
 use crate::shape::Shape;
+use crate::step::{StepError, StepRecord, Workspace};
+use crate::world::World;
 
 mod sealed {
     pub trait Sealed {}
@@ -72,4 +75,11 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
 
     /// The orientation as a unit quaternion (x, y, z, w), for files.
     fn quaternion(rotation: Self::Rotation) -> [f64; 4];
+
+    /// [`crate::step::step`] in this dimension: all that a step is made of is compiled here, once, and not in every program that
+    /// calls it.
+    ///
+    /// # Errors
+    /// As there.
+    fn step(world: &mut World<Self, D, N>, work: &mut Workspace<Self, D, N>) -> Result<StepRecord, StepError>;
 }

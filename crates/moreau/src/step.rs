@@ -11,6 +11,7 @@ mod workspace;
 
 pub use failed::{FAILED_KEPT, FailedSolve};
 pub use moreau_jean::step;
+pub(crate) use moreau_jean::step_in;
 pub use record::{Energy, Seconds, StepRecord};
 pub use workspace::{Localised, Workspace};
 

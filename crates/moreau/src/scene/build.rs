@@ -12,6 +12,7 @@ use super::{Scene, start};
 use crate::bodies::{Bodies, Body, Motion};
 use crate::laws::Laws;
 use crate::space::Pose;
+use crate::space::curve::Curve;
 use crate::world::{StepSettings, World};
 
 /// Makes the world of a scene that passed the checks.
@@ -114,7 +115,13 @@ fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
     let centres = centres::<D>(index, spec, &radii, &mut places)?;
     let (material, density) = (material(scene, &spec.material), density(scene, &spec.material));
     let common = S::join(vector(&spec.velocity), spec.spin.as_ref());
-    for (radius, position) in radii.into_iter().zip(centres) {
+    // Numbered along a curve through space: neighbours are then near each other in memory, too.
+    let poses: Vec<_> = centres.into_iter().map(|position| Pose { position, rotation: S::IDENTITY }).collect();
+    let mut along = Curve::default();
+    let places = along.places(&poses, |_| true);
+    let mut order: Vec<usize> = (0..poses.len()).collect();
+    order.sort_unstable_by_key(|&i| places[i]);
+    for (radius, pose) in order.into_iter().map(|i| (radii[i], poses[i])) {
         let mut velocity = common;
         if spec.speed > 0.0 {
             let direction: [f64; D] = speeds.direction();
@@ -122,7 +129,6 @@ fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
                 velocity[k] += spec.speed * direction[k];
             }
         }
-        let pose = Pose { position, rotation: S::IDENTITY };
         bodies.push(Body { shape: S::round(radius), pose, velocity, density, material, motion: Motion::Free, load: [0.0; N] });
     }
     Ok(())

@@ -2,6 +2,8 @@
 
 use super::Space;
 use crate::shape::PlaneShape;
+use crate::step::{StepError, StepRecord, Workspace, step_in};
+use crate::world::World;
 
 /// Two dimensions, three degrees of freedom a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,5 +64,9 @@ impl Space<2, 3> for Plane {
         let half_cos = (0.5 * (1.0 + c)).max(0.0).sqrt();
         let half_sin = (0.5 * (1.0 - c)).max(0.0).sqrt().copysign(s);
         [0.0, 0.0, half_sin, half_cos]
+    }
+
+    fn step(world: &mut World<Self, 2, 3>, work: &mut Workspace<Self, 2, 3>) -> Result<StepRecord, StepError> {
+        step_in(world, work)
     }
 }

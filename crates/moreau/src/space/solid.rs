@@ -2,6 +2,8 @@
 
 use super::Space;
 use crate::shape::SolidShape;
+use crate::step::{StepError, StepRecord, Workspace, step_in};
+use crate::world::World;
 use glam::{DMat3, DQuat, DVec3};
 
 /// Three dimensions, six degrees of freedom a body.
@@ -107,6 +109,10 @@ impl Space<3, 6> for Solid {
 
     fn quaternion(rotation: DQuat) -> [f64; 4] {
         rotation.to_array()
+    }
+
+    fn step(world: &mut World<Self, 3, 6>, work: &mut Workspace<Self, 3, 6>) -> Result<StepRecord, StepError> {
+        step_in(world, work)
     }
 }
 

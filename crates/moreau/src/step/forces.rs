@@ -2,6 +2,7 @@
 
 use crate::bodies::Bodies;
 use crate::space::Space;
+use moreau_solve::tasks;
 
 /// Writes the velocity that each body would have without contacts.
 pub(super) fn free_velocity<S: Space<D, N>, const D: usize, const N: usize>(
@@ -10,8 +11,7 @@ pub(super) fn free_velocity<S: Space<D, N>, const D: usize, const N: usize>(
     h: f64,
     free: &mut Vec<[f64; N]>,
 ) {
-    free.clear();
-    free.extend((0..bodies.len()).map(|i| {
+    tasks::fill(free, bodies.len(), |i| {
         let mut v = bodies.velocity[i];
         if !bodies.is_free(i) {
             return v;
@@ -25,5 +25,5 @@ pub(super) fn free_velocity<S: Space<D, N>, const D: usize, const N: usize>(
         }
         S::gyroscopic(&bodies.mass[i], &bodies.velocity[i], &mut v, h);
         v
-    }));
+    });
 }

@@ -1,7 +1,8 @@
 //! Stages 3 and 11: positions from velocities (eqs. 13 and 18).
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Motion};
 use crate::space::{Pose, Space};
+use moreau_solve::tasks;
 
 /// The pose after the time `h` at the constant velocity `v`.
 fn moved<S: Space<D, N>, const D: usize, const N: usize>(
@@ -19,8 +20,7 @@ pub(super) fn predict<S: Space<D, N>, const D: usize, const N: usize>(
     theta: f64,
     middle: &mut Vec<Pose<S::Rotation, D>>,
 ) {
-    middle.clear();
-    middle.extend(bodies.pose.iter().zip(&bodies.velocity).map(|(pose, v)| moved::<S, D, N>(pose, v, h * (1.0 - theta))));
+    tasks::fill(middle, bodies.len(), |i| moved::<S, D, N>(&bodies.pose[i], &bodies.velocity[i], h * (1.0 - theta)));
 }
 
 /// Moves the bodies, q⁺ = q + h (θ v⁺ + (1 − θ) v), and gives them the velocities v⁺ in `after`.
@@ -36,20 +36,21 @@ pub(super) fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     h: f64,
     theta: f64,
 ) -> f64 {
-    let mut taken = 0.0;
-    for i in 0..bodies.len() {
-        let before = bodies.velocity[i];
+    let Bodies { pose, velocity, mass, load, motion, .. } = bodies;
+    tasks::sum_mut(0, pose, velocity, &|i, pose, velocity| {
+        let before = *velocity;
         let mean = std::array::from_fn(|k| theta * after[i][k] + (1.0 - theta) * before[k]);
-        let end = moved::<S, D, N>(&bodies.pose[i], &mean, h);
-        bodies.velocity[i] = after[i];
-        if bodies.is_free(i) {
-            let rotations = [bodies.pose[i].rotation, middle[i].rotation, end.rotation];
-            let impulse = bodies.load[i].map(|x| h * x);
-            let settled = S::settle(&bodies.mass[i], rotations, [&before, &free[i], &after[i]], &impulse);
-            taken += (D..N).map(|k| 0.5 * bodies.mass[i][k] * (after[i][k].powi(2) - settled[k].powi(2))).sum::<f64>();
-            bodies.velocity[i] = settled;
+        let end = moved::<S, D, N>(pose, &mean, h);
+        *velocity = after[i];
+        let mut taken = 0.0;
+        if motion[i] == Motion::Free {
+            let rotations = [pose.rotation, middle[i].rotation, end.rotation];
+            let impulse = load[i].map(|x| h * x);
+            let settled = S::settle(&mass[i], rotations, [&before, &free[i], &after[i]], &impulse);
+            taken = (D..N).map(|k| 0.5 * mass[i][k] * (after[i][k].powi(2) - settled[k].powi(2))).sum::<f64>();
+            *velocity = settled;
         }
-        bodies.pose[i] = end;
-    }
-    taken
+        *pose = end;
+        taken
+    })
 }

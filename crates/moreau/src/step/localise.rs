@@ -8,7 +8,7 @@ use crate::space::{Pose, Space};
 use crate::world::World;
 use moreau_solve::block::dot;
 use moreau_solve::law::Approach;
-use rayon::prelude::*;
+use moreau_solve::tasks;
 
 /// Spins in the world of all bodies, at the beginning of the step and without contacts.
 #[derive(Default)]
@@ -25,17 +25,12 @@ impl Spins {
         [before, free]: [&[[f64; N]]; 2],
     ) {
         let spin = |i: usize, v: &[[f64; N]]| S::spin_in_world(middle[i].rotation, &v[i]);
-        self.before.clear();
-        self.before.extend((0..middle.len()).map(|i| spin(i, before)));
-        self.free.clear();
+        tasks::fill(&mut self.before, middle.len(), |i| spin(i, before));
         // Where no torque acts they are the same.
         let same = |i: usize| before[i][D..] == free[i][D..];
-        self.free.extend((0..middle.len()).map(|i| if same(i) { self.before[i] } else { spin(i, free) }));
+        tasks::fill(&mut self.free, middle.len(), |i| if same(i) { self.before[i] } else { spin(i, free) });
     }
 }
-
-/// A contact before the solve and its velocity without impulses; `None` if its law does not act in this step.
-pub(super) type Prepared<const D: usize> = Option<(Localised<D>, [f64; D])>;
 
 /// What localising reads.
 pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> {
@@ -48,25 +43,17 @@ pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> 
 }
 
 impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
-    /// Localises all of `contacts` that act, in order; by several threads where there are enough of them to pay.
-    pub(super) fn each(
-        &self,
-        contacts: &[Contact<D>],
-        prepared: &mut Vec<Prepared<D>>,
-        mut take: impl FnMut(&Localised<D>, &[f64; D]),
-    ) {
-        let one = |contact| if self.spins.is_some() { self.one::<true>(contact) } else { self.one::<false>(contact) };
-        if contacts.len() < 1024 || rayon::current_num_threads() == 1 {
-            contacts.iter().filter_map(one).for_each(|(localised, q)| take(&localised, &q));
-        } else {
-            contacts.par_iter().map(one).collect_into_vec(prepared);
-            prepared.iter().flatten().for_each(|(localised, q)| take(localised, q));
-        }
+    /// Localises those of `found` whose law acts in this step, in order. Until they are solved, `after` is their velocity without
+    /// impulses.
+    pub(super) fn each(&self, found: &[Contact<D>], contacts: &mut Vec<Localised<D>>) {
+        let one = |c: usize| if self.spins.is_some() { self.one::<true>(&found[c]) } else { self.one::<false>(&found[c]) };
+        tasks::fill(contacts, found.len(), one);
+        contacts.retain(Localised::acts);
     }
 
     /// With TURNS the spins count.
     #[inline]
-    fn one<const TURNS: bool>(&self, contact: &Contact<D>) -> Prepared<D> {
+    fn one<const TURNS: bool>(&self, contact: &Contact<D>) -> Localised<D> {
         let bodies = &self.world.bodies;
         let (a, b) = (contact.key.a as usize, contact.key.b as usize);
         let frame = S::frame(contact.normal);
@@ -75,16 +62,15 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         let (before_a, before_b) = (before(a), before(b));
         let before = in_frame::<D, TURNS>(&frame, &before_a, &before_b);
         let approach = Approach { gap: contact.gap, closed_below: closed_below(bodies, [a, b]), before, step: self.h };
-        let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach)?;
+        let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach);
         let given = |body: usize, v: &[f64; D]| if bodies.is_free(body) { [0.0; D] } else { *v };
         let driven = match (bodies.is_free(a), bodies.is_free(b)) {
             (true, true) => [0.0; D],
             _ => in_frame::<D, TURNS>(&frame, &given(a, &before_a), &given(b, &before_b)),
         };
         let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
-        let u_free = in_frame::<D, TURNS>(&frame, &free(a), &free(b));
-        let localised = Localised { contact: *contact, frame, form, before, after: [0.0; D], driven, impulse: [0.0; D] };
-        Some((localised, std::array::from_fn(|i| u_free[i] + form.shift[i])))
+        let after = in_frame::<D, TURNS>(&frame, &free(a), &free(b));
+        Localised::new(*contact, frame, form, [before, after, driven])
     }
 
     /// The velocity of a body at the contact, v + ω × arm, or that of its centre.

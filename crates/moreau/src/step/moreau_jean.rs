@@ -5,16 +5,15 @@ use super::localise::{Localiser, rounding};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
-use super::{StepError, Workspace, forces, integrate};
+use super::{Localised, StepError, Workspace, forces, integrate};
+use crate::contacts::{Contact, ContactKey};
 use crate::shape::Shape;
 use crate::space::Space;
 use crate::world::{OnFailure, Start, World};
 use moreau_solve::files::ProblemFile;
-use moreau_solve::{Acts, Report, Status};
+use moreau_solve::{Acts, Report, Status, tasks};
+use std::ops::Range;
 use std::time::Instant;
-
-/// How many contacts are localised at a time, by all threads; bounds the memory between localising and assembling.
-const CHUNK: usize = 4096;
 
 /// How often a step may be halved.
 const HALVINGS: u32 = 6;
@@ -25,6 +24,14 @@ const HALVINGS: u32 = 6;
 /// [`StepError::Unconverged`] where the policy says to stop; the world is then as before the step.
 /// [`StepError::NotFinite`] where a velocity or position ceases to be a number.
 pub fn step<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+) -> Result<StepRecord, StepError> {
+    S::step(world, work)
+}
+
+/// [`step`], in whatever dimension.
+pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
 ) -> Result<StepRecord, StepError> {
@@ -125,8 +132,7 @@ fn keep_failed<S: Space<D, N>, const D: usize, const N: usize>(
 fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, work: &mut Workspace<S, D, N>, h: f64) {
     let bodies = &world.bodies;
     let approach = world.laws.iter().any(|law| law.acts() == Acts::Approach);
-    work.reach.clear();
-    work.reach.extend((0..bodies.len()).map(|i| reach(world, i, &work.free[i], h, approach)));
+    tasks::fill(&mut work.reach, bodies.len(), |i| reach(world, i, &work.free[i], h, approach));
     work.detector.detect::<S, N>(&bodies.shape, &work.middle, &work.reach, |i| !bodies.is_free(i), &mut work.found);
 }
 
@@ -159,52 +165,60 @@ fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
     h: f64,
 ) -> Kind {
     let bodies = &world.bodies;
-    work.contacts.clear();
-    let law =
-        |c: &crate::contacts::Contact<D>| world.laws.get(bodies.material[c.key.a as usize], bodies.material[c.key.b as usize]);
+    let law = |c: &Contact<D>| world.laws.get(bodies.material[c.key.a as usize], bodies.material[c.key.b as usize]);
     let round = |body: u32| bodies.shape[body as usize].is_round() || !bodies.is_free(body as usize);
-    let frictionless = work.found.iter().all(|c| law(c).is_frictionless());
-    let kind = match (frictionless, work.found.iter().all(|c| round(c.key.a) && round(c.key.b))) {
+    let found = &work.found;
+    let all = |holds: &(dyn Fn(&Contact<D>) -> bool + Sync)| {
+        tasks::fold(0..found.len(), &|part: Range<usize>| found[part].iter().all(holds), &|a, b| a && b)
+    };
+    let kind = match (all(&|c| law(c).is_frictionless()), all(&|c| round(c.key.a) && round(c.key.b))) {
         (false, false) => Kind::Full,
         (true, false) => Kind::Normal,
         (false, true) => Kind::Round,
         (true, true) => Kind::Central,
     };
-    let system = work.systems.get(kind);
-    system.clear(bodies);
     let spins = (kind != Kind::Central).then(|| {
         work.spins.fill::<S, D, N>(&work.middle, [&bodies.velocity, &work.free]);
         &work.spins
     });
     let localiser = Localiser { world, middle: &work.middle, free: &work.free, spins, h };
-    let mut last = work.previous.iter().peekable();
-    for chunk in work.found.chunks(CHUNK) {
-        localiser.each(chunk, &mut work.prepared, |localised, q| {
-            // Both lists are sorted by key: a merge finds the impulse of the step before.
-            let key = localised.contact.key;
-            while last.next_if(|(before, _)| *before < key).is_some() {}
-            let start = match last.peek() {
-                Some((before, r)) if *before == key && world.settings.start == Start::Warm => *r,
-                _ => [0.0; D],
-            };
-            system.push(bodies, &work.middle, localised, q, &start);
-            work.contacts.push(*localised);
-        });
+    localiser.each(&work.found, &mut work.contacts);
+    if world.settings.start == Start::Warm {
+        recall(&work.previous, &mut work.contacts);
     }
+    work.systems.get(kind).fill(bodies, &work.middle, &work.contacts, &mut work.curve);
     kind
+}
+
+/// Gives contacts the impulses of the step before, as far as they had any. Both lists are sorted by key.
+fn recall<const D: usize>(previous: &[(ContactKey, [f64; D])], contacts: &mut [Localised<D>]) {
+    tasks::parts(contacts, |_, contacts| {
+        let Some(first) = contacts.first() else { return };
+        let mut last = previous[previous.partition_point(|(before, _)| *before < first.contact.key)..].iter().peekable();
+        for contact in contacts {
+            let key = contact.contact.key;
+            while last.next_if(|(before, _)| *before < key).is_some() {}
+            if let Some((_, r)) = last.next_if(|(before, _)| *before == key) {
+                contact.impulse = *r;
+            }
+        }
+    });
 }
 
 /// Keeps the impulses of a step that was taken, for the next to start from.
 fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>) {
-    work.previous.clear();
-    work.previous.extend(work.contacts.iter().map(|c| (c.contact.key, c.impulse)));
+    let contacts = &work.contacts;
+    tasks::fill(&mut work.previous, contacts.len(), |c| (contacts[c].contact.key, contacts[c].impulse));
 }
 
 /// Adds a solve to the record of its step; of several, the worst residual counts.
 fn note<S: Space<D, N>, const D: usize, const N: usize>(record: &mut StepRecord, work: &mut Workspace<S, D, N>, report: Report) {
     record.contacts = work.contacts.len();
-    record.active = work.contacts.iter().filter(|c| c.impulse != [0.0; D]).count();
-    record.penetration = work.found.iter().map(|c| -c.gap).fold(record.penetration, f64::max);
+    let (contacts, found) = (&work.contacts, &work.found);
+    let active = |part: Range<usize>| contacts[part].iter().filter(|c| c.impulse != [0.0; D]).count();
+    record.active = tasks::fold(0..contacts.len(), &active, &|a, b| a + b);
+    let deepest = |part: Range<usize>| found[part].iter().map(|c| -c.gap).fold(0.0, f64::max);
+    record.penetration = record.penetration.max(tasks::fold(0..found.len(), &deepest, &f64::max));
     if report.status != Status::Converged {
         record.status = report.status;
     }
@@ -231,7 +245,8 @@ fn check_finite<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S,
     let finite = |i: usize| {
         world.bodies.velocity[i].iter().all(|x| x.is_finite()) && world.bodies.pose[i].position.iter().all(|x| x.is_finite())
     };
-    match (0..world.bodies.len()).find(|&i| !finite(i)) {
+    let first = |mut part: Range<usize>| part.find(|&i| !finite(i));
+    match tasks::fold(0..world.bodies.len(), &first, &Option::or) {
         Some(body) => Err(StepError::NotFinite { body, time: world.time }),
         None => Ok(()),
     }

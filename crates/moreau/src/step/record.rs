@@ -4,6 +4,7 @@ use super::workspace::Localised;
 use crate::bodies::Bodies;
 use crate::space::Space;
 use moreau_solve::block::dot;
+use moreau_solve::tasks;
 use moreau_solve::{Residual, Status};
 
 /// The energy of the free bodies, J, and what has gone in and out since the start.
@@ -81,12 +82,14 @@ pub(super) fn energies<S: Space<D, N>, const D: usize, const N: usize>(
     bodies: &Bodies<S, D, N>,
     gravity: &[f64; D],
 ) -> (f64, f64) {
-    let (mut kinetic, mut potential) = (0.0, 0.0);
-    for i in (0..bodies.len()).filter(|&i| bodies.is_free(i)) {
+    let [kinetic, potential] = tasks::sums(0..bodies.len(), &|i| {
+        if !bodies.is_free(i) {
+            return [0.0; 2];
+        }
         let (v, mass) = (&bodies.velocity[i], &bodies.mass[i]);
-        kinetic += 0.5 * (0..N).map(|k| mass[k] * v[k] * v[k]).sum::<f64>();
-        potential -= mass[0] * dot(gravity, &bodies.pose[i].position);
-    }
+        let kinetic = 0.5 * (0..N).map(|k| mass[k] * v[k] * v[k]).sum::<f64>();
+        [kinetic, -mass[0] * dot(gravity, &bodies.pose[i].position)]
+    });
     (kinetic, potential)
 }
 
@@ -111,15 +114,14 @@ impl Ledger {
         contacts: &[Localised<D>],
         (h, theta): (f64, f64),
     ) {
-        for i in (0..bodies.len()).filter(|&i| bodies.is_free(i)) {
+        let of_body = |i: usize| {
             let (v, mass) = (&bodies.velocity[i], &bodies.mass[i]);
-            let (mut displaced, mut middle) = (0.0, 0.0);
+            let (mut work, mut displaced, mut middle) = (0.0, 0.0, 0.0);
             let v_theta = |k: usize| theta * after[i][k] + (1.0 - theta) * v[k];
             if bodies.load[i] != [0.0; N] {
                 let load = bodies.load_in_body(i);
-                let power = (0..N).map(|k| load[k] * v_theta(k)).sum::<f64>();
-                self.work += h * power;
-                displaced += h * power;
+                work = h * (0..N).map(|k| load[k] * v_theta(k)).sum::<f64>();
+                displaced = work;
             }
             for k in 0..D {
                 displaced += h * mass[k] * gravity[k] * v_theta(k);
@@ -127,13 +129,17 @@ impl Ledger {
             for k in 0..N {
                 middle += mass[k] * (smooth[i][k] - v[k]) * 0.5 * (v[k] + after[i][k]);
             }
-            self.dissipated += displaced - middle;
-        }
-        for c in contacts {
+            [work, displaced - middle]
+        };
+        let of_contact = |c: usize| {
+            let c = &contacts[c];
             let mean: [f64; D] = std::array::from_fn(|i| 0.5 * (c.before[i] + c.after[i]));
-            self.dissipated -= dot(&c.impulse, &mean);
-            self.work -= dot(&c.impulse, &c.driven);
-        }
+            [-dot(&c.impulse, &c.driven), -dot(&c.impulse, &mean)]
+        };
+        let bodies = tasks::sums(0..bodies.len(), &|i| if bodies.is_free(i) { of_body(i) } else { [0.0; 2] });
+        let contacts = tasks::sums(0..contacts.len(), &of_contact);
+        self.work += bodies[0] + contacts[0];
+        self.dissipated += bodies[1] + contacts[1];
     }
 
     /// Books what the scheme takes beside.

@@ -8,9 +8,10 @@ mod operators;
 use super::failed::with_guesses;
 use super::workspace::Localised;
 use crate::bodies::Bodies;
+use crate::space::curve::Curve;
 use crate::space::{Pose, Space};
 use moreau_solve::files::{FileError, ProblemFile, StoredProblem};
-use moreau_solve::{Balls, Cone, Delassus, MatrixFree, Problem, Report, Scratch, Settings};
+use moreau_solve::{Balls, Cone, Delassus, MatrixFree, Problem, Report, Scratch, Settings, tasks};
 use operators::Assembled;
 
 /// One contact problem with its memory.
@@ -72,18 +73,9 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Systems<S, D, N> {
 
 /// What the step asks of a system, whatever its coordinates.
 pub(super) trait ContactSystem<S: Space<D, N>, const D: usize, const N: usize> {
-    /// Empties it for these bodies.
-    fn clear(&mut self, bodies: &Bodies<S, D, N>);
-
-    /// Adds a contact, of which the system keeps the components and degrees of freedom that it needs.
-    fn push(
-        &mut self,
-        bodies: &Bodies<S, D, N>,
-        middle: &[Pose<S::Rotation, D>],
-        contact: &Localised<D>,
-        q: &[f64; D],
-        start: &[f64; D],
-    );
+    /// Takes these contacts of these bodies, of which it keeps the components and degrees of freedom that it needs, in the place of
+    /// those that it had.
+    fn fill(&mut self, bodies: &Bodies<S, D, N>, middle: &[Pose<S::Rotation, D>], contacts: &[Localised<D>], curve: &mut Curve);
 
     /// Finds the impulses.
     fn solve(&mut self, settings: &Settings) -> Report;
@@ -112,25 +104,12 @@ fn widened<const K: usize, const D: usize>(part: &[f64; K]) -> [f64; D] {
 impl<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, const K: usize> ContactSystem<S, D, N>
     for System<O, S, D, N, K>
 {
-    fn clear(&mut self, bodies: &Bodies<S, D, N>) {
-        self.operator.begin(bodies);
-        self.q.clear();
-        self.cones.clear();
-        self.r.clear();
-    }
-
-    fn push(
-        &mut self,
-        bodies: &Bodies<S, D, N>,
-        middle: &[Pose<S::Rotation, D>],
-        contact: &Localised<D>,
-        q: &[f64; D],
-        start: &[f64; D],
-    ) {
-        self.operator.add(bodies, middle, contact);
-        self.q.push(std::array::from_fn(|i| q[i]));
-        self.cones.push(if K == 1 { Cone::Signorini } else { contact.form.cone });
-        self.r.push(std::array::from_fn(|i| start[i]));
+    fn fill(&mut self, bodies: &Bodies<S, D, N>, middle: &[Pose<S::Rotation, D>], contacts: &[Localised<D>], curve: &mut Curve) {
+        self.operator.fill(bodies, middle, contacts, curve);
+        let n = contacts.len();
+        tasks::fill(&mut self.q, n, |c| std::array::from_fn(|i| contacts[c].after[i] + contacts[c].form.shift[i]));
+        tasks::fill(&mut self.cones, n, |c| if K == 1 { Cone::Signorini } else { contacts[c].form.cone });
+        tasks::fill(&mut self.r, n, |c| std::array::from_fn(|i| contacts[c].impulse[i]));
     }
 
     fn solve(&mut self, settings: &Settings) -> Report {
@@ -157,11 +136,11 @@ impl<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, c
 
     fn answer(&self, contacts: &mut [Localised<D>]) {
         let problem = Problem { operator: &self.operator, q: &self.q, cones: &self.cones };
-        for (c, contact) in contacts.iter_mut().enumerate() {
+        tasks::each(contacts, |c, contact| {
             let u = problem.velocity(self.scratch.state(), c);
             contact.impulse = widened(&self.r[c]);
             contact.after = widened::<K, D>(&std::array::from_fn(|i| u[i] - contact.form.shift[i]));
-        }
+        });
     }
 
     fn deposit(&self, bodies: &Bodies<S, D, N>, middle: &[Pose<S::Rotation, D>], velocity: &mut [[f64; N]]) {

@@ -1,14 +1,15 @@
 //! Scratch of a step: buffers that are written anew each time and kept, and what observers read of the last step.
 
 use super::failed::{Failed, FailedSolve};
-use super::localise::{Prepared, Spins};
+use super::localise::Spins;
 use super::record::Ledger;
 use super::system::Systems;
 use crate::contacts::{Contact, ContactKey};
 use crate::detect::Detector;
+use crate::space::curve::Curve;
 use crate::space::{Pose, Space};
 use crate::world::World;
-use moreau_solve::{HistoryRow, NormalForm};
+use moreau_solve::{Cone, HistoryRow, NormalForm};
 
 /// One contact as the last step left it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +29,26 @@ pub struct Localised<const D: usize> {
     pub driven: [f64; D],
     /// Impulse on body `b`, in the frame, N·s.
     pub impulse: [f64; D],
+    acts: bool,
+}
+
+impl<const D: usize> Localised<D> {
+    /// A contact before the solve, without an impulse; its law does not act where it has no form.
+    pub(super) fn new(
+        contact: Contact<D>,
+        frame: [[f64; D]; D],
+        form: Option<NormalForm<D>>,
+        [before, after, driven]: [[f64; D]; 3],
+    ) -> Self {
+        let none = NormalForm { cone: Cone::Signorini, shift: [0.0; D] };
+        let (acts, form) = (form.is_some(), form.unwrap_or(none));
+        Self { contact, frame, form, before, after, driven, impulse: [0.0; D], acts }
+    }
+
+    /// Whether its law acts in this step.
+    pub(super) fn acts(&self) -> bool {
+        self.acts
+    }
 }
 
 /// The world before a step that is being halved, to go back to if its second part fails.
@@ -59,9 +80,9 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) reach: Vec<f64>,
     pub(super) found: Vec<Contact<D>>,
     pub(super) spins: Spins,
-    pub(super) prepared: Vec<Prepared<D>>,
     pub(super) contacts: Vec<Localised<D>>,
     pub(super) previous: Vec<(ContactKey, [f64; D])>,
+    pub(super) curve: Curve,
     pub(super) systems: Systems<S, D, N>,
     pub(super) ledger: Ledger,
     pub(super) before: Option<Before<S, D, N>>,
@@ -79,9 +100,9 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             reach: Vec::new(),
             found: Vec::new(),
             spins: Spins::default(),
-            prepared: Vec::new(),
             contacts: Vec::new(),
             previous: Vec::new(),
+            curve: Curve::default(),
             systems: Systems::default(),
             ledger: Ledger::default(),
             before: None,
