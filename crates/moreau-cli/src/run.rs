@@ -24,9 +24,9 @@ pub(crate) struct Args {
     /// Change a value of the scene: key.path=value (may be given again)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,
-    /// How many threads may be used
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: u16,
+    /// How many threads may be used; default one a core. The results do not depend on it
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     /// No progress bar and no summary
     #[arg(long)]
     quiet: bool,
@@ -118,7 +118,7 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
     let settings = world.settings;
     let bodies = world.bodies.len();
     let bar = progress::bar(scene.time.steps, args.quiet);
-    let pool = scene::pool(usize::from(args.threads))?;
+    let pool = scene::pool(args.threads.map_or_else(scene::cores, usize::from))?;
     let result = pool.install(|| {
         moreau::run::run(&mut world, &mut Workspace::default(), scene.time.steps, &mut observers, stop, |record| {
             if !bar.is_hidden() {
@@ -135,7 +135,7 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
             (outcome, Some(error))
         }
     };
-    let threads = usize::from(args.threads);
+    let threads = pool.current_num_threads();
     let mut summary = outcome.summary.to_json(bodies, &settings, threads, outcome.seconds_total, outcome.seconds_output);
     summary["memory_bytes"] = scene::memory_in_use().into();
     let written = write_whole(&folder.join("summary.json"), &format!("{summary:#}\n"));

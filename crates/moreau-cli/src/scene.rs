@@ -22,6 +22,11 @@ pub(crate) fn memory_in_use() -> u64 {
     system.process(pid).map_or(0, sysinfo::Process::memory)
 }
 
+/// How many threads the machine runs at once.
+pub(crate) fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}
+
 /// As many threads as the user asks for.
 pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

@@ -139,8 +139,8 @@ impl<const B: usize> WithWide for Extrapolate<'_, B> {
     }
 }
 
-/// A sweep takes several threads where there are so many blocks to share.
-const WORTH_SHARING: usize = 4;
+/// A sweep takes several threads where a wave has so many blocks to share on average: with fewer, threads wait for each other.
+const WORTH_SHARING: usize = 3;
 
 /// So many bodies are one task.
 const BODIES: usize = 2048;
@@ -148,7 +148,7 @@ const BODIES: usize = 2048;
 impl<K: Kernel<B, C>, const B: usize, const C: usize> Packing<K, B, C> {
     /// Whether blocks are shared among threads; the bits are the same either way.
     fn shares(&self) -> bool {
-        self.layout.blocks.len() >= WORTH_SHARING && rayon::current_num_threads() > 1
+        self.layout.blocks.len() >= WORTH_SHARING * self.layout.waves.len() && rayon::current_num_threads() > 1
     }
 
     /// y = z + β (z − z₋), one sweep from y to z⁺, and what changed. With `claim` the visits' velocities are kept.
