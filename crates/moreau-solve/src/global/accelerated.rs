@@ -21,9 +21,8 @@
 //! problem is not convex and nothing is proved: the criterion decides.
 
 use super::mixing::Mixing;
-use super::sweep::{sweep, visit};
+use super::sweep::{Local, sweep};
 use super::{Work, keep};
-use crate::block::{axpy, sub};
 use crate::local::LocalSolver;
 use crate::{Operator, Status};
 
@@ -156,20 +155,10 @@ fn sweep_from<O: Operator<D>, L: LocalSolver, const D: usize>(work: &mut Work<'_
     let (q, cones, from, r) = (&problem.q[..n], &problem.cones[..n], &scratch.from[..n], &mut r[..n]);
     let claimed = if L::CLAIMS { &mut scratch.claimed[..n] } else { &mut [] };
     let mut unfinished = 0;
-    for &c in order {
-        let c = c as usize;
-        if c >= n {
-            continue;
-        }
-        problem.operator.relax(state, c, |w, wr| {
-            let visit = visit(local, w, cones[c], &axpy(&q[c], 1.0, &wr), &from[c]);
-            r[c] = visit.r;
-            if L::CLAIMS {
-                claimed[c] = visit.u;
-            }
-            unfinished += u64::from(!visit.converged);
-            sub(&visit.r, &from[c])
-        });
+    for c in order.iter().map(|&c| c as usize).filter(|&c| c < n) {
+        let (r, u) = (&mut r[c], claimed.get_mut(c));
+        let visit = Local { local, q: &q[c], cone: cones[c], from: from[c], omega: 1.0, r, u, unfinished: &mut unfinished };
+        problem.operator.relax(state, c, visit);
     }
     judge.unfinished_visits = unfinished;
 }

@@ -3,6 +3,7 @@
 use super::Work;
 use crate::block::{Matrix, Vector, axpy, sub, velocity_after};
 use crate::local::{LocalSolver, Visit};
+use crate::operator::Visit as AtContact;
 use crate::{Cone, Operator};
 
 /// One visit to every contact, in the order of the scratch or against it.
@@ -13,44 +14,54 @@ pub(super) fn sweep<O: Operator<D>, L: LocalSolver, const D: usize>(work: &mut W
     // One length for all, and one look at the index: the compiler then drops a check for each array.
     let (q, cones, r) = (&problem.q[..n], &problem.cones[..n], &mut r[..n]);
     let claimed = if L::CLAIMS { &mut scratch.claimed[..n] } else { &mut [] };
-    let omega = settings.relaxation;
-    let mut unfinished = 0;
-    let mut at = |c: usize| {
-        if c >= n {
-            return;
+    let (omega, mut unfinished) = (settings.relaxation, 0);
+    for k in 0..n {
+        let c = order[if backwards { n - 1 - k } else { k }] as usize;
+        if c < n {
+            let (from, u) = (r[c], claimed.get_mut(c));
+            let visit = Local { local, q: &q[c], cone: cones[c], from, omega, r: &mut r[c], u, unfinished: &mut unfinished };
+            problem.operator.relax(state, c, visit);
         }
-        problem.operator.relax(state, c, |w, wr| {
-            let u = std::array::from_fn(|i| q[c][i] + wr[i]);
-            let mut visit = visit(local, w, cones[c], &u, &r[c]);
-            if omega != 1.0 {
-                visit = relaxed(omega, w, cones[c], &u, &r[c], &visit);
-            }
-            let change = sub(&visit.r, &r[c]);
-            r[c] = visit.r;
-            if L::CLAIMS {
-                claimed[c] = visit.u;
-            }
-            unfinished += u64::from(!visit.converged);
-            change
-        });
-    };
-    if backwards {
-        order.iter().rev().for_each(|&c| at(c as usize));
-    } else {
-        order.iter().for_each(|&c| at(c as usize));
     }
     judge.unfinished_visits = unfinished;
 }
 
+/// A visit by the local solver.
+pub(super) struct Local<'a, L, const D: usize> {
+    pub(super) local: L,
+    pub(super) q: &'a Vector<D>,
+    pub(super) cone: Cone,
+    /// The impulse of before, for which the operator's state stands.
+    pub(super) from: Vector<D>,
+    /// Over-relaxation.
+    pub(super) omega: f64,
+    /// Where the new impulse goes, and the claimed velocity if it is kept.
+    pub(super) r: &'a mut Vector<D>,
+    pub(super) u: Option<&'a mut Vector<D>>,
+    pub(super) unfinished: &'a mut u64,
+}
+
+impl<L: LocalSolver, const D: usize> AtContact<D> for Local<'_, L, D> {
+    #[inline(always)]
+    fn change(self, w: &Matrix<D>, wr: Vector<D>) -> Vector<D> {
+        let Self { local, q, cone, from, omega, r, u: claimed, unfinished } = self;
+        let u = axpy(q, 1.0, &wr);
+        let mut visit = visit(local, w, cone, &u, &from);
+        if omega != 1.0 {
+            visit = relaxed(omega, w, cone, &u, &from, &visit);
+        }
+        *r = visit.r;
+        if let Some(claimed) = claimed {
+            *claimed = visit.u;
+        }
+        *unfinished += u64::from(!visit.converged);
+        sub(&visit.r, &from)
+    }
+}
+
 /// A contact without friction is a problem of one dimension, in whichever space it lies.
 #[inline(always)]
-pub(super) fn visit<L: LocalSolver, const D: usize>(
-    local: L,
-    w: &Matrix<D>,
-    cone: Cone,
-    u: &Vector<D>,
-    r: &Vector<D>,
-) -> Visit<D> {
+fn visit<L: LocalSolver, const D: usize>(local: L, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
     if D == 1 || cone != Cone::Signorini {
         return local.visit(w, cone, u, r);
     }

@@ -11,7 +11,7 @@
 //! in the axes of the world, where a ball's inertia is the same number J in all directions. Disks are balls that stay in a plane: their
 //! velocities have no third component, their spins no others. One component a contact (K = 1) leaves the spins out.
 
-use super::{Delassus, MatrixFree, NONE, Operator, colouring};
+use super::{Add, Delassus, MatrixFree, NONE, Operator, Visit, colouring};
 use crate::block::{Matrix, Vector};
 use crate::tasks;
 use std::borrow::Cow;
@@ -150,17 +150,15 @@ impl<const K: usize> RoundContact<K> {
         self.frame.map(|e| e[0] * u[0] + e[1] * u[1] + e[2] * u[2])
     }
 
-    /// The state of one side after the impulse p.
+    /// Gives one side, which was in the state `y`, the impulse p. Writes no more than changes: the next visit need not wait for the rest.
     #[inline(always)]
-    fn pushed(&self, side: usize, body: RoundBody, state: &RoundState, p: &[f64; 3]) -> RoundState {
+    fn give(&self, side: usize, body: RoundBody, y: &RoundState, p: &[f64; 3], state: &mut RoundState) {
         let along = [-1.0, 1.0][side] * body.inverse_mass;
-        let mut next = *state;
-        (0..3).for_each(|k| next[0][k] += along * p[k]);
+        (0..3).for_each(|k| state[0][k] = y[0][k] + along * p[k]);
         if K > 1 {
             let (turn, by) = (cross(&self.frame[0], p), self.arms[side] * body.inverse_inertia);
-            (0..3).for_each(|k| next[1][k] -= by * turn[k]);
+            (0..3).for_each(|k| state[1][k] = y[1][k] - by * turn[k]);
         }
-        next
     }
 }
 
@@ -171,7 +169,7 @@ impl<const K: usize> Operator<K> for Balls<K> {
         state.clear();
         state.resize(self.bodies.len(), RoundState::default());
         for (c, r) in r.iter().enumerate() {
-            self.relax(state, c, |_, _| *r);
+            self.relax(state, c, Add(r));
         }
     }
 
@@ -201,15 +199,15 @@ impl<const K: usize> Operator<K> for Balls<K> {
     }
 
     #[inline(always)]
-    fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<K>, Vector<K>) -> Vector<K>) {
+    fn relax(&self, state: &mut Self::State, c: usize, visit: impl Visit<K>) {
         let contact = &self.contacts[c];
         let y = contact.pair.map(|body| read(state, body));
-        let change = visit(&self.diagonal(c), contact.relative(&y));
+        let change = visit.change(&self.diagonal(c), contact.relative(&y));
         if change != [0.0; K] {
             let p = std::array::from_fn(|k| (0..K).map(|i| contact.frame[i][k] * change[i]).sum());
             for side in 0..2 {
                 if let Some(place) = state.get_mut(contact.pair[side] as usize) {
-                    *place = contact.pushed(side, self.body(contact.pair[side]), &y[side], &p);
+                    contact.give(side, self.body(contact.pair[side]), &y[side], &p, place);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! W stored by rows of blocks: for problems that come without bodies, and to check the matrix-free operator.
 
-use super::{MatrixFree, NONE, Operator};
+use super::{MatrixFree, NONE, Operator, Visit};
 use crate::block::{Matrix, Vector, mul};
 use std::borrow::Cow;
 
@@ -158,8 +158,8 @@ impl<const D: usize> Operator<D> for Delassus<D> {
         Cow::Borrowed(self)
     }
 
-    fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<D>, Vector<D>) -> Vector<D>) {
-        let change = visit(&self.diagonal[c], self.apply(state, c));
+    fn relax(&self, state: &mut Self::State, c: usize, visit: impl Visit<D>) {
+        let change = visit.change(&self.diagonal[c], self.apply(state, c));
         for i in 0..D {
             state[c][i] += change[i];
         }

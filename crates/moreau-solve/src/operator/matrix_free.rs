@@ -1,6 +1,6 @@
 //! W through the bodies: never formed, one contact touches two bodies.
 
-use super::{Delassus, Operator, colouring};
+use super::{Add, Delassus, Operator, Visit, colouring};
 use crate::block::{Matrix, Vector};
 use std::borrow::Cow;
 
@@ -130,7 +130,7 @@ impl<const D: usize, const N: usize> Operator<D> for MatrixFree<D, N> {
         state.clear();
         state.resize(self.bodies, [0.0; N]);
         for (c, r) in r.iter().enumerate() {
-            self.relax(state, c, |_, _| *r);
+            self.relax(state, c, Add(r));
         }
     }
 
@@ -158,11 +158,11 @@ impl<const D: usize, const N: usize> Operator<D> for MatrixFree<D, N> {
     }
 
     #[inline(always)]
-    fn relax(&self, state: &mut Self::State, c: usize, visit: impl FnOnce(&Matrix<D>, Vector<D>) -> Vector<D>) {
+    fn relax(&self, state: &mut Self::State, c: usize, visit: impl Visit<D>) {
         let state = state.as_mut_slice();
         let Contact { pair, rows, diagonal } = &self.contacts[c];
         let y = [read(state, pair[0]), read(state, pair[1])];
-        let change = visit(diagonal, relative(rows, &y));
+        let change = visit.change(diagonal, relative(rows, &y));
         // Looking first pays twice: nothing is written, and the next visit need not wait for it.
         if change != [0.0; D] {
             write(state, pair[0], &y[0], &rows[0], &change);
