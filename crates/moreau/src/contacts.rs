@@ -7,7 +7,8 @@ pub struct ContactKey {
     pub a: u32,
     /// The body with the higher index (the candidate).
     pub b: u32,
-    /// Which of the pair's points: 0 for balls, the index of the vertex for polygons and boxes on a half-space.
+    /// Which of the pair's points: 0 for balls, the index of the vertex for polygons and boxes on a half-space, for two bodies with
+    /// corners which vertices or edges of both make it.
     pub feature: u32,
 }
 

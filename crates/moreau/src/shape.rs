@@ -120,7 +120,8 @@ where
     fn has_pair(&self, other: &Self) -> bool;
 
     /// Finds the contact points of body `a` against body `b` whose gap is at most `reach` (m) and hands each to
-    /// `emit(feature, point, normal from a to b, gap)`. Features are the same whichever comes first, and ascend.
+    /// `emit(feature, point, normal from a to b, gap)`. Features ascend. They are the same whichever comes first, but of two shapes of a
+    /// kind they may say which body a point belongs to.
     fn collide(
         a: Placed<'_, Self, S::Rotation, D>,
         b: Placed<'_, Self, S::Rotation, D>,

@@ -2,10 +2,12 @@
 
 mod ball;
 mod cuboid;
+mod faceted;
 mod half_space;
 
 pub use ball::Ball;
 pub use cuboid::Cuboid;
+pub use faceted::{Edge, Faceted};
 pub use half_space::HalfSpace;
 
 use super::{Figure, Placed, Shape};

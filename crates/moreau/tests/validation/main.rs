@@ -1,7 +1,9 @@
 //! Known results: one folder a result under `validation/`, with its scene, the expected value, its source and the tolerance argued.
 
+mod arch;
 mod blocks;
 mod chain;
+mod cylinders;
 mod impacts;
 mod reactions;
 mod rolling;

@@ -4,6 +4,7 @@ mod disk_disk;
 mod disk_half_plane;
 mod polygon_disk;
 mod polygon_half_plane;
+mod polygon_polygon;
 
 use crate::shape::{Placed, PlaneShape};
 use crate::space::{Plane, Space};
@@ -17,6 +18,7 @@ pairs! {
     Disk, HalfPlane => disk_half_plane;
     Polygon, HalfPlane => polygon_half_plane;
     Polygon, Disk => polygon_disk;
+    Polygon, Polygon => polygon_polygon;
 }
 
 #[cfg(test)]

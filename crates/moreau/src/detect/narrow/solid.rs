@@ -3,7 +3,9 @@
 mod ball_ball;
 mod ball_half_space;
 mod box_ball;
+mod box_box;
 mod box_half_space;
+mod facets;
 
 use crate::shape::{Placed, SolidShape};
 use crate::space::{Solid, Space};
@@ -17,6 +19,7 @@ pairs! {
     Ball, HalfSpace => ball_half_space;
     Cuboid, HalfSpace => box_half_space;
     Cuboid, Ball => box_ball;
+    Cuboid, Cuboid => box_box;
 }
 
 #[cfg(test)]

@@ -22,3 +22,8 @@ pub(super) fn sub<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
 pub(super) fn along<const D: usize>(a: [f64; D], s: f64, b: [f64; D]) -> [f64; D] {
     std::array::from_fn(|k| a[k] + s * b[k])
 }
+
+#[inline]
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

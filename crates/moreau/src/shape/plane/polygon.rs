@@ -58,6 +58,12 @@ impl Polygon {
         self.sides.iter().map(|side| side.start)
     }
 
+    /// Radius of the disk around its centre of mass that holds it, m.
+    #[inline]
+    pub fn radius(&self) -> f64 {
+        self.bounding_radius
+    }
+
     /// Its area, m².
     pub fn area(&self) -> f64 {
         self.area

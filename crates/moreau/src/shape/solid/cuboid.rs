@@ -1,5 +1,6 @@
 //! The box.
 
+use super::{Edge, Faceted};
 use crate::shape::{Figure, ShapeError, error::length};
 use crate::space::Solid;
 
@@ -31,8 +32,7 @@ impl Cuboid {
 impl Figure<Solid, 3, 6> for Cuboid {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
-        let [x, y, z] = self.half;
-        Some((x * x + y * y + z * z).sqrt())
+        Some(self.radius())
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {
@@ -44,9 +44,82 @@ impl Figure<Solid, 3, 6> for Cuboid {
     }
 }
 
+/// Faces −x, +x, −y, +y, −z, +z by their corners.
+const FACES: [[u16; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+
+const fn edge(start: u16, end: u16, left: u16, right: u16) -> Edge {
+    Edge { ends: [start, end], faces: [left, right] }
+}
+
+const EDGES: [Edge; 12] = [
+    edge(0, 1, 2, 4),
+    edge(0, 2, 0, 4),
+    edge(0, 4, 0, 2),
+    edge(1, 3, 1, 4),
+    edge(1, 5, 1, 2),
+    edge(2, 3, 3, 4),
+    edge(2, 6, 0, 3),
+    edge(3, 7, 1, 3),
+    edge(4, 5, 2, 5),
+    edge(4, 6, 0, 5),
+    edge(5, 7, 1, 5),
+    edge(6, 7, 3, 5),
+];
+
+impl Faceted for Cuboid {
+    fn vertices(&self) -> usize {
+        8
+    }
+
+    #[inline]
+    fn vertex(&self, i: usize) -> [f64; 3] {
+        self.corner(i as u32)
+    }
+
+    fn faces(&self) -> usize {
+        6
+    }
+
+    #[inline]
+    fn normal(&self, i: usize) -> [f64; 3] {
+        let outward = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
+        std::array::from_fn(|k| if k == i / 2 { outward } else { 0.0 })
+    }
+
+    #[inline]
+    fn face(&self, i: usize) -> &[u16] {
+        &FACES[i]
+    }
+
+    #[inline]
+    fn edges(&self) -> &[Edge] {
+        &EDGES
+    }
+
+    fn radius(&self) -> f64 {
+        let [x, y, z] = self.half;
+        (x * x + y * y + z * z).sqrt()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn faces_run_counter_clockwise_and_edges_lie_between_their_faces() {
+        let cuboid = Cuboid { half: [1.0, 2.0, 3.0] };
+        for face in 0..6 {
+            let [p, q, r] = [0, 1, 2].map(|k| cuboid.vertex(usize::from(cuboid.face(face)[k])));
+            let (u, v): ([f64; 3], [f64; 3]) = (std::array::from_fn(|k| q[k] - p[k]), std::array::from_fn(|k| r[k] - q[k]));
+            let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+            let along: f64 = (0..3).map(|k| normal[k] * cuboid.normal(face)[k]).sum();
+            assert!(along > 0.0 && normal.iter().map(|x| x.abs()).sum::<f64>() == along, "face {face}");
+        }
+        for edge in cuboid.edges() {
+            assert!(edge.faces.iter().all(|&face| edge.ends.iter().all(|end| cuboid.face(usize::from(face)).contains(end))));
+        }
+    }
 
     #[test]
     fn the_moments_of_a_box_are_twelfths() {

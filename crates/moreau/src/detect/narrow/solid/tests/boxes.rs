@@ -1,0 +1,131 @@
+//! Boxes on boxes: against closed forms, and against distances found by projecting to and fro.
+
+use super::*;
+use proptest::prelude::*;
+
+/// The contacts of a with b.
+fn contacts(a: Cuboid, pose_a: Pose, b: Cuboid, pose_b: Pose, reach: f64) -> Vec<Found> {
+    let mut found = Vec::new();
+    let (a, b) = (SolidShape::from(a), SolidShape::from(b));
+    SolidShape::collide((&a, &pose_a), (&b, &pose_b), reach, &mut |f, p, n, g| found.push((f, p, n, g)));
+    found
+}
+
+const CUBE: Cuboid = Cuboid { half: [1.0; 3] };
+
+/// Points and features of a cube on a cube: normals up and this gap.
+fn on_top(found: &[Found], gap: f64) -> Vec<[f64; 2]> {
+    for (_, p, n, g) in found {
+        assert!((n[2] - 1.0).abs() < 1e-12 && (g - gap).abs() < 1e-11 && (p[2] - 1.0 - 0.5 * gap).abs() < 1e-11, "{found:?}");
+    }
+    found.iter().map(|(_, p, ..)| [p[0], p[1]]).collect()
+}
+
+#[test]
+fn a_cube_stands_on_a_cube_at_the_corners_of_what_they_share() {
+    let found = contacts(CUBE, at([0.0; 3], UP), CUBE, at([0.5, 0.25, 1.9], UP), 0.0);
+    let mut points = on_top(&found, -0.1);
+    points.sort_by(|p, q| p.partial_cmp(q).unwrap());
+    assert_eq!(points, [[-0.5, -0.75], [-0.5, 1.0], [1.0, -0.75], [1.0, 1.0]]);
+    // A small cube within the face of a large one, and the large one on the small one.
+    let small = Cuboid { half: [0.25; 3] };
+    assert_eq!(on_top(&contacts(CUBE, at([0.0; 3], UP), small, at([0.3, 0.3, 1.25], UP), 0.0), 0.0).len(), 4);
+    let found = contacts(small, at([0.3, 0.3, 0.75], UP), CUBE, at([0.0, 0.0, 2.0], UP), 0.0);
+    assert!(found.len() == 4 && on_top(&found, 0.0).iter().all(|p| p.iter().all(|x| ((x - 0.3).abs() - 0.25).abs() < 1e-12)));
+    // Turned by an eighth: of eight corners the four that are farthest out.
+    let eighth = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
+    assert_eq!(on_top(&contacts(CUBE, at([0.0; 3], UP), CUBE, at([0.0, 0.0, 2.0], eighth), 1e-9), 0.0).len(), 4);
+}
+
+#[test]
+fn features_of_boxes_at_rest_do_not_flicker() {
+    for shift in [[0.0, 0.0], [0.7, 0.0], [0.7, 0.3]] {
+        let mut first: Option<Vec<u32>> = None;
+        for k in 0..200 {
+            let tiny = |seed: i32| f64::from((k * 7919 + seed * 104_729) % 1000 - 500_i32) * 1e-15;
+            let turn = |seed: i32| DQuat::from_xyzw(tiny(seed), tiny(seed + 1), tiny(seed + 2), 1.0).normalize();
+            let above = at([shift[0] + tiny(1), shift[1] + tiny(2), 2.0 + tiny(3)], turn(4));
+            let found = contacts(CUBE, at([tiny(8), tiny(9), tiny(10)], turn(11)), CUBE, above, 1e-9);
+            on_top(&found, 0.0);
+            let features: Vec<u32> = found.iter().map(|contact| contact.0).collect();
+            assert!(features.len() == 4 && first.get_or_insert(features.clone()) == &features, "{shift:?}: {features:x?}");
+        }
+    }
+}
+
+#[test]
+fn edges_cross_at_one_point() {
+    // One cube on its edge along x, another on its edge along y above it.
+    let turned = |axis: DVec3| DQuat::from_axis_angle(axis, std::f64::consts::FRAC_PI_4);
+    let found =
+        contacts(CUBE, at([0.0; 3], turned(DVec3::X)), CUBE, at([0.2, 0.3, 2.0 * 2.0_f64.sqrt() - 0.1], turned(DVec3::Y)), 0.0);
+    assert_eq!(found.len(), 1);
+    let (_, p, n, g) = found[0];
+    assert!((g + 0.1).abs() < 1e-14 && (n[2] - 1.0).abs() < 1e-14, "{found:?}");
+    assert!((DVec3::from(p) - DVec3::new(0.2, 0.0, 2.0_f64.sqrt() - 0.05)).length() < 1e-13, "{found:?}");
+}
+
+#[test]
+fn a_corner_stands_on_a_face_and_corners_have_the_direction_between_them() {
+    let on_tip = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
+    let found = contacts(CUBE, at([0.0; 3], UP), CUBE, at([0.1, 0.2, 1.0 + 3.0_f64.sqrt() - 0.01], on_tip), 0.0);
+    assert!(found.len() == 1 && (found[0].3 + 0.01).abs() < 1e-14 && (found[0].1[0] - 0.1).abs() < 1e-14, "{found:?}");
+    let found = contacts(CUBE, at([0.0; 3], UP), CUBE, at([2.2, 2.3, 2.6], UP), 0.8);
+    let n = DVec3::new(0.2, 0.3, 0.6) / 0.7;
+    assert!(found.len() == 1 && (found[0].3 - 0.7).abs() < 1e-14 && (DVec3::from(found[0].2) - n).length() < 1e-14, "{found:?}");
+}
+
+/// The distance of two boxes that are apart: the nearest point of one to the nearest point of the other, again and again.
+fn distance(a: Cuboid, pose_a: Pose, b: Cuboid, pose_b: Pose) -> f64 {
+    let project = |cuboid: Cuboid, pose: Pose, x: DVec3| {
+        let local = pose.rotation.conjugate() * (x - DVec3::from(pose.position));
+        DVec3::from(pose.position) + pose.rotation * local.clamp(-DVec3::from(cuboid.half), DVec3::from(cuboid.half))
+    };
+    let (mut x, mut y) = (DVec3::from(pose_a.position), DVec3::from(pose_b.position));
+    // Slow where faces are nearly parallel: ended where nothing moves any more.
+    for _ in 0..2_000_000 {
+        let before = (x, y);
+        x = project(a, pose_a, y);
+        y = project(b, pose_b, x);
+        if (before.0 - x).length() + (before.1 - y).length() < 1e-13 {
+            break;
+        }
+    }
+    (x - y).length()
+}
+
+fn cuboid() -> impl Strategy<Value = Cuboid> {
+    prop::array::uniform3(0.1..1.0_f64).prop_map(|half| Cuboid { half })
+}
+
+fn rotation() -> impl Strategy<Value = DQuat> {
+    prop::array::uniform4(-1.0..1.0_f64).prop_filter_map("not zero", |[x, y, z, w]| {
+        let q = DQuat::from_xyzw(x, y, z, w);
+        (q.length() > 0.1).then(|| q.normalize())
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn gaps_are_distances(a in cuboid(), b in cuboid(), turn_a in rotation(), turn_b in rotation(), way in rotation(), far in 0.3..3.0_f64) {
+        let pose_a = at([0.3, -0.2, 0.1], turn_a);
+        let between: DVec3 = way * DVec3::X * far;
+        let pose_b = at((DVec3::from(pose_a.position) + between).to_array(), turn_b);
+        let found = contacts(a, pose_a, b, pose_b, 5.0);
+        prop_assert!(!found.is_empty() && found.len() <= 4);
+        let least = found.iter().map(|contact| contact.3).fold(f64::INFINITY, f64::min);
+        prop_assert!(found.iter().all(|(_, _, n, _)| (DVec3::from(*n).length() - 1.0).abs() < 1e-12));
+        // Moved along the normal until they are a hundredth apart, they are; if they overlap they are moved apart.
+        let (n, aside) = (DVec3::from(found[0].2), if least > 0.0 { 0.0 } else { 0.01 - least });
+        let moved = at((DVec3::from(pose_b.position) + aside * n).to_array(), turn_b);
+        let right = distance(a, pose_a, b, moved);
+        let expected = if least > 0.0 { least } else { 0.01 };
+        prop_assert!((right - expected).abs() < 1e-6, "{expected} is not {right}; the gap is {least}");
+        // The other way round the same.
+        let back = contacts(b, pose_b, a, pose_a, 5.0);
+        let other = back.iter().map(|contact| contact.3).fold(f64::INFINITY, f64::min);
+        prop_assert!((least - other).abs() < 1e-8, "{least} but {other} the other way round");
+    }
+}

@@ -1,0 +1,28 @@
+//! Convex bodies with flat faces, as contacts see them.
+
+/// A convex polyhedron around its centre of mass, in its body's frame.
+pub trait Faceted {
+    /// How many vertices it has.
+    fn vertices(&self) -> usize;
+    /// Vertex `i`, m.
+    fn vertex(&self, i: usize) -> [f64; 3];
+    /// How many faces it has.
+    fn faces(&self) -> usize;
+    /// Outward unit normal of face `i`.
+    fn normal(&self, i: usize) -> [f64; 3];
+    /// The vertices of face `i`, counter-clockwise seen from outside.
+    fn face(&self, i: usize) -> &[u16];
+    /// All edges.
+    fn edges(&self) -> &[Edge];
+    /// Radius of the ball around the centre of mass that holds it, m.
+    fn radius(&self) -> f64;
+}
+
+/// An edge, where two faces meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// Its vertices.
+    pub ends: [u16; 2],
+    /// The faces on both sides.
+    pub faces: [u16; 2],
+}
