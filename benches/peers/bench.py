@@ -110,7 +110,7 @@ def moreau(args, budget, scene, name):
     out = args.work / f"moreau-{name}"
     file = out.with_suffix(".toml")
     file.write_text(scene)
-    child = subprocess.Popen([args.moreau, "run", file, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True)
+    child = subprocess.Popen([args.moreau, "run", file, "--out", out, "--quiet", "--threads", "1"], stderr=subprocess.PIPE, text=True)
     try:
         child.wait(budget)
     except subprocess.TimeoutExpired:
