@@ -2,6 +2,10 @@
 
 use super::vector::{NO_DIRECTION, along, dot, sub};
 
+/// Of the size of the bodies: what sides and faces that are level, and vertices that are opposite each other, may differ by. Rounding
+/// must not decide between them.
+pub(super) const LEVEL: f64 = 1e-9;
+
 /// Two round bodies (centre, radius). Where the centres coincide every direction is as good as another; the last axis is taken.
 #[inline]
 pub(in crate::detect) fn two_round<const D: usize>(

@@ -6,13 +6,10 @@
 //! blocks at rest stay what they are. Two polygons that are apart at a vertex each have one point between these.
 
 use super::Pose;
+use crate::detect::narrow::common::LEVEL;
 use crate::detect::narrow::vector::{along, dot, sub};
 use crate::shape::plane::{Polygon, Side};
 use crate::space::{Plane, Space};
-
-/// Of the size of the bodies: what sides that are level, and vertices that are opposite each other, may differ by. Rounding must not
-/// decide between them.
-const LEVEL: f64 = 1e-9;
 
 pub(super) fn collide(
     (a, pose_a): (&Polygon, &Pose),

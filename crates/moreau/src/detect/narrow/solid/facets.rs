@@ -12,6 +12,7 @@ mod nearest;
 mod overlap;
 
 use super::Pose;
+use crate::detect::narrow::common::LEVEL;
 use crate::detect::narrow::vector::{along, dot, sub};
 use crate::shape::solid::Faceted;
 use crate::space::{Solid, Space};
@@ -19,11 +20,8 @@ use axes::{Axis, best};
 use nearest::nearest;
 use overlap::{Points, overlap};
 
-/// Of the size of the bodies: what faces that are level, and vertices that are opposite each other, may differ by. Rounding must not
-/// decide between them.
-const LEVEL: f64 = 1e-9;
-
-/// What makes a point: a vertex of the first body, one of the second, or an edge of each.
+/// What makes a point, by its kind: 0 a vertex of the first body, 1 one of the second, 2 an edge of each by their numbers, 3 one of each by the
+/// vertices at which their faces' sides begin, or two vertices.
 fn feature(kind: u32, a: usize, b: usize) -> u32 {
     kind << 30 | (a as u32) << 15 | b as u32
 }
