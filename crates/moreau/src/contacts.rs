@@ -8,8 +8,9 @@ pub struct ContactKey {
     /// The body with the higher index (the candidate).
     pub b: u32,
     /// Which of the pair's points: 0 for balls, the index of the vertex for polygons and boxes on a half-space, for two bodies with
-    /// corners which vertices or edges of both make it.
-    pub feature: u32,
+    /// corners which vertices or edges of both make it. The low 32 bits are the pair of shapes'; the high ones say which part of a body
+    /// that is made of several, or which triangle of a mesh, the point is on.
+    pub feature: u64,
 }
 
 /// One contact point at the predicted configuration.

@@ -56,7 +56,7 @@ macro_rules! shapes {
                 a: Placed<'_, Self, <$Space as Space<$D, $N>>::Rotation, $D>,
                 b: Placed<'_, Self, <$Space as Space<$D, $N>>::Rotation, $D>,
                 reach: f64,
-                emit: &mut impl FnMut(u32, [f64; $D], [f64; $D], f64),
+                emit: &mut impl FnMut(u64, [f64; $D], [f64; $D], f64),
             ) {
                 pairs::collide(a, b, reach, emit);
             }
@@ -126,6 +126,6 @@ where
         a: Placed<'_, Self, S::Rotation, D>,
         b: Placed<'_, Self, S::Rotation, D>,
         reach: f64,
-        emit: &mut impl FnMut(u32, [f64; D], [f64; D], f64),
+        emit: &mut impl FnMut(u64, [f64; D], [f64; D], f64),
     );
 }

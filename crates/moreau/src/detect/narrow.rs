@@ -25,7 +25,7 @@ macro_rules! pairs {
             (a, pose_a): Placed<'_, $Shape, <$Space as Space<$D, $N>>::Rotation, $D>,
             (b, pose_b): Placed<'_, $Shape, <$Space as Space<$D, $N>>::Rotation, $D>,
             reach: f64,
-            emit: &mut impl FnMut(u32, [f64; $D], [f64; $D], f64),
+            emit: &mut impl FnMut(u64, [f64; $D], [f64; $D], f64),
         ) {
             match (a, b) {
                 $(($Shape::$A(a), $Shape::$B(b)) => $file::collide((a, pose_a), (b, pose_b), reach, emit),

@@ -12,7 +12,7 @@ pub(in crate::detect) fn two_round<const D: usize>(
     (centre_a, radius_a): ([f64; D], f64),
     (centre_b, radius_b): ([f64; D], f64),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; D], [f64; D], f64),
+    emit: &mut impl FnMut(u64, [f64; D], [f64; D], f64),
 ) {
     let between = sub(centre_b, centre_a);
     let square = dot(between, between);
@@ -31,7 +31,7 @@ pub(super) fn round_on_wall<const D: usize>(
     (centre, radius): ([f64; D], f64),
     (on_wall, outward): ([f64; D], [f64; D]),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; D], [f64; D], f64),
+    emit: &mut impl FnMut(u64, [f64; D], [f64; D], f64),
 ) {
     let gap = dot(outward, sub(centre, on_wall)) - radius;
     if gap <= reach {
@@ -42,11 +42,11 @@ pub(super) fn round_on_wall<const D: usize>(
 /// One corner (world) of a body over a flat boundary.
 #[inline]
 pub(super) fn corner_on_wall<const D: usize>(
-    feature: u32,
+    feature: u64,
     corner: [f64; D],
     (on_wall, outward): ([f64; D], [f64; D]),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; D], [f64; D], f64),
+    emit: &mut impl FnMut(u64, [f64; D], [f64; D], f64),
 ) {
     let gap = dot(outward, sub(corner, on_wall));
     if gap <= reach {

@@ -23,7 +23,7 @@ impl Cuboid {
     /// Corner `index` (0 to 7) in the body's frame, m. The bits of the index, lowest first, say on which side it lies along x,
     /// y and z.
     #[inline]
-    pub fn corner(&self, index: u32) -> [f64; 3] {
+    pub fn corner(&self, index: u64) -> [f64; 3] {
         let side = |axis: usize| if index >> axis & 1 == 0 { -self.half[axis] } else { self.half[axis] };
         [side(0), side(1), side(2)]
     }
@@ -73,7 +73,7 @@ impl Faceted for Cuboid {
 
     #[inline]
     fn vertex(&self, i: usize) -> [f64; 3] {
-        self.corner(i as u32)
+        self.corner(i as u64)
     }
 
     fn faces(&self) -> usize {

@@ -9,7 +9,7 @@ pub(super) fn collide(
     (disk, pose): (&Disk, &Pose),
     (_, wall): (&HalfPlane, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 2], [f64; 2], f64),
+    emit: &mut impl FnMut(u64, [f64; 2], [f64; 2], f64),
 ) {
     round_on_wall((pose.position, disk.radius), (wall.position, HalfPlane::normal(wall.rotation)), reach, emit);
 }

@@ -13,7 +13,7 @@ pub(super) fn collide(
     (polygon, pose_a): (&Polygon, &Pose),
     (disk, pose_b): (&Disk, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 2], [f64; 2], f64),
+    emit: &mut impl FnMut(u64, [f64; 2], [f64; 2], f64),
 ) {
     let centre = Plane::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
     let (outward, distance) = nearest(polygon, centre);

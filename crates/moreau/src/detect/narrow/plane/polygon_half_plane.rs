@@ -10,7 +10,7 @@ pub(super) fn collide(
     (polygon, pose): (&Polygon, &Pose),
     (_, wall): (&HalfPlane, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 2], [f64; 2], f64),
+    emit: &mut impl FnMut(u64, [f64; 2], [f64; 2], f64),
 ) {
     let normal = HalfPlane::normal(wall.rotation);
     for (feature, vertex) in (0..).zip(polygon.vertices()) {

@@ -15,7 +15,7 @@ pub(super) fn collide(
     (a, pose_a): (&Polygon, &Pose),
     (b, pose_b): (&Polygon, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 2], [f64; 2], f64),
+    emit: &mut impl FnMut(u64, [f64; 2], [f64; 2], f64),
 ) {
     let (from_a, from_b) = (Seen::new((b, pose_b), pose_a), Seen::new((a, pose_a), pose_b));
     let ((side_a, apart_a), (side_b, apart_b)) = (farthest(a, &from_a), farthest(b, &from_b));
@@ -36,7 +36,7 @@ pub(super) fn collide(
     if nearest > apart.max(0.0) + level {
         ends = [Some(facing.vertices(apart)), None];
     }
-    ends.sort_unstable_by_key(|end| end.map_or(u32::MAX, |end| end.feature));
+    ends.sort_unstable_by_key(|end| end.map_or(u64::MAX, |end| end.feature));
     for End { feature, point, normal, gap } in ends.into_iter().flatten().filter(|end| end.gap <= reach) {
         // Half-way between the surfaces, from the other's.
         let middle = Plane::rotate(pose.rotation, along(point, -0.5 * gap, normal));
@@ -91,7 +91,7 @@ struct Facing<'a> {
 /// One end of the stretch; the point on the other polygon, the normal from the reference to it, both in the frame of the reference.
 #[derive(Clone, Copy)]
 struct End {
-    feature: u32,
+    feature: u64,
     point: [f64; 2],
     normal: [f64; 2],
     gap: f64,
@@ -151,7 +151,7 @@ impl Facing<'_> {
     }
 
     /// Vertices of the first body have even numbers.
-    fn feature(&self, own: bool, vertex: usize) -> u32 {
-        2 * vertex as u32 + u32::from(own != self.first)
+    fn feature(&self, own: bool, vertex: usize) -> u64 {
+        2 * vertex as u64 + u64::from(own != self.first)
     }
 }

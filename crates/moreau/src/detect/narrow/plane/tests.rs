@@ -4,7 +4,7 @@ use crate::shape::plane::{Disk, HalfPlane, Polygon};
 
 mod polygons;
 
-type Found = (u32, [f64; 2], [f64; 2], f64);
+type Found = (u64, [f64; 2], [f64; 2], f64);
 
 const UP: [f64; 2] = [1.0, 0.0];
 

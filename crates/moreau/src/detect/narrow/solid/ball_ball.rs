@@ -9,7 +9,7 @@ pub(super) fn collide(
     (a, pose_a): (&Ball, &Pose),
     (b, pose_b): (&Ball, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 3], [f64; 3], f64),
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     two_round((pose_a.position, a.radius), (pose_b.position, b.radius), reach, emit);
 }

@@ -9,7 +9,7 @@ pub(super) fn collide(
     (ball, pose): (&Ball, &Pose),
     (_, wall): (&HalfSpace, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 3], [f64; 3], f64),
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     round_on_wall((pose.position, ball.radius), (wall.position, HalfSpace::normal(wall.rotation)), reach, emit);
 }

@@ -12,7 +12,7 @@ pub(super) fn collide(
     (cuboid, pose_a): (&Cuboid, &Pose),
     (ball, pose_b): (&Ball, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 3], [f64; 3], f64),
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     let centre = Solid::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
     let (outward, distance) = nearest(cuboid.half, centre);

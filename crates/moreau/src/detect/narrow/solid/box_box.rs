@@ -3,6 +3,6 @@
 use super::{Pose, facets};
 use crate::shape::solid::Cuboid;
 
-pub(super) fn collide(a: (&Cuboid, &Pose), b: (&Cuboid, &Pose), reach: f64, emit: &mut impl FnMut(u32, [f64; 3], [f64; 3], f64)) {
+pub(super) fn collide(a: (&Cuboid, &Pose), b: (&Cuboid, &Pose), reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
     facets::collide(a, b, reach, emit);
 }

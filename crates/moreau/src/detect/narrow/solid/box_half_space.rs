@@ -10,7 +10,7 @@ pub(super) fn collide(
     (cuboid, pose): (&Cuboid, &Pose),
     (_, wall): (&HalfSpace, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 3], [f64; 3], f64),
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     let normal = HalfSpace::normal(wall.rotation);
     for feature in 0..8 {

@@ -22,14 +22,14 @@ use overlap::{Points, overlap};
 
 /// What makes a point, by its kind: 0 a vertex of the first body, 1 one of the second, 2 an edge of each by their numbers, 3 one of each by the
 /// vertices at which their faces' sides begin, or two vertices.
-fn feature(kind: u32, a: usize, b: usize) -> u32 {
-    kind << 30 | (a as u32) << 15 | b as u32
+fn feature(kind: u64, a: usize, b: usize) -> u64 {
+    kind << 30 | (a as u64) << 15 | b as u64
 }
 
 /// A point of contact in the frame of the first body, on the surface of the second; the normal points from the first to the second.
 #[derive(Clone, Copy, Debug)]
 struct Point {
-    feature: u32,
+    feature: u64,
     at: [f64; 3],
     normal: [f64; 3],
     gap: f64,
@@ -72,7 +72,7 @@ pub(super) fn collide<A: Faceted, B: Faceted>(
     (a, pose_a): (&A, &Pose),
     (b, pose_b): (&B, &Pose),
     reach: f64,
-    emit: &mut impl FnMut(u32, [f64; 3], [f64; 3], f64),
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     let position = Solid::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
     let (a, b) =

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 
 mod boxes;
 
-type Found = (u32, [f64; 3], [f64; 3], f64);
+type Found = (u64, [f64; 3], [f64; 3], f64);
 
 fn at(position: [f64; 3], rotation: DQuat) -> Pose {
     Pose { position, rotation }

@@ -40,7 +40,7 @@ fn features_of_blocks_at_rest_do_not_flicker() {
             let tiny = |seed: i32| f64::from((k * 7919 + seed * 104_729) % 1000 - 500_i32) * 1e-15;
             let pose = at([shift + tiny(1), 4.0 + tiny(2)], turned(tiny(3)));
             let found = contacts(&rectangle(), &at([tiny(5), tiny(6)], turned(tiny(7))), &rectangle(), &pose, 1e-9);
-            let features: Vec<u32> = found.iter().map(|contact| contact.0).collect();
+            let features: Vec<u64> = found.iter().map(|contact| contact.0).collect();
             assert_eq!(features, if shift == 0.0 { [4, 6] } else { [1, 4] }, "{found:?}");
             assert!(found.iter().all(|(_, _, n, g)| (n[1] - 1.0).abs() < 1e-12 && g.abs() < 1e-11));
         }

@@ -29,7 +29,7 @@ pub(super) fn between_lines(
 /// no face and no two edges nearest. Where they are as good as one the normal is the axis's, along which they are `apart`.
 pub(super) fn nearest<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, axis: &Axis, apart: f64, level: f64) -> Point {
     let mut best = (f64::INFINITY, 0, [[0.0; 3]; 2]);
-    let mut meet = |feature: u32, on_a: [f64; 3], on_b: [f64; 3]| {
+    let mut meet = |feature: u64, on_a: [f64; 3], on_b: [f64; 3]| {
         let between = sub(on_b, on_a);
         if dot(between, between) < best.0 {
             best = (dot(between, between), feature, [on_a, on_b]);

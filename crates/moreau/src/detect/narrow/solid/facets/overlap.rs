@@ -124,7 +124,7 @@ pub(super) fn overlap<A: Faceted, B: Faceted>(
     let theirs = Flat { seen: other, face: facing, axes: [s, t], turn: -1.0 };
     let (base, their_normal) = (ours.corner(0), other.normal(facing));
     let mut taken: [[f64; 2]; 32] = [[0.0; 2]; 32];
-    let mut take = |feature: u32, on_other: [f64; 3], gap: f64| {
+    let mut take = |feature: u64, on_other: [f64; 3], gap: f64| {
         let flat = ours.flat(on_other);
         let near = |&p: &[f64; 2]| dot(sub(p, flat), sub(p, flat)) <= 16.0 * level * level;
         if points.count < taken.len() && !taken[..points.count].iter().any(near) {

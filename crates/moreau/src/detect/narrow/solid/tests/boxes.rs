@@ -40,14 +40,14 @@ fn a_cube_stands_on_a_cube_at_the_corners_of_what_they_share() {
 #[test]
 fn features_of_boxes_at_rest_do_not_flicker() {
     for shift in [[0.0, 0.0], [0.7, 0.0], [0.7, 0.3]] {
-        let mut first: Option<Vec<u32>> = None;
+        let mut first: Option<Vec<u64>> = None;
         for k in 0..200 {
             let tiny = |seed: i32| f64::from((k * 7919 + seed * 104_729) % 1000 - 500_i32) * 1e-15;
             let turn = |seed: i32| DQuat::from_xyzw(tiny(seed), tiny(seed + 1), tiny(seed + 2), 1.0).normalize();
             let above = at([shift[0] + tiny(1), shift[1] + tiny(2), 2.0 + tiny(3)], turn(4));
             let found = contacts(CUBE, at([tiny(8), tiny(9), tiny(10)], turn(11)), CUBE, above, 1e-9);
             on_top(&found, 0.0);
-            let features: Vec<u32> = found.iter().map(|contact| contact.0).collect();
+            let features: Vec<u64> = found.iter().map(|contact| contact.0).collect();
             assert!(features.len() == 4 && first.get_or_insert(features.clone()) == &features, "{shift:?}: {features:x?}");
         }
     }
