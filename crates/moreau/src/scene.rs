@@ -45,7 +45,7 @@ pub use error::{LineColumn, Place, SceneError};
 pub use estimate::Estimate;
 pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Range};
 pub use spec::{
-    BodySpec, Container, Face, Material, MotionKind, Output, OutputKind, PairLaw, ShapeSpec, Solver, StartSpec, Time,
+    BodySpec, Container, Face, Material, MotionKind, Output, OutputKind, PairLaw, PartSpec, ShapeSpec, Solver, StartSpec, Time,
 };
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 

@@ -39,6 +39,10 @@ macro_rules! shapes {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::is_round(shape),)+ }
             }
 
+            fn is_convex(&self) -> bool {
+                match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::is_convex(shape),)+ }
+            }
+
             fn mass(&self, density: f64) -> [f64; $N] {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::mass(shape, density),)+ }
             }
@@ -90,6 +94,11 @@ pub trait Figure<S: Space<D, N>, const D: usize, const N: usize> {
         false
     }
 
+    /// See [`Shape::is_convex`].
+    fn is_convex(&self) -> bool {
+        true
+    }
+
     /// See [`Shape::mass`].
     fn mass(&self, density: f64) -> [f64; N];
 }
@@ -108,6 +117,9 @@ where
 
     /// Whether the normal of every contact passes through the centre of mass, as for a disk or a ball.
     fn is_round(&self) -> bool;
+
+    /// Whether the straight way between any two of its points lies inside; of a compound it is not asked.
+    fn is_convex(&self) -> bool;
 
     /// Diagonal of the mass matrix at this density: the mass `D` times, then the principal moments; infinite for an unbounded
     /// one.

@@ -5,13 +5,19 @@
 //! used, in a fixed order, so that the same poses give the same bits on every machine.
 
 /// Writes a dimension's table of pairs and its dispatch. A row `A, B => file;` stands for both orders: `file::collide` gets the
-/// bodies in the order of the row.
+/// bodies in the order of the row. The first row, `[A, any] => file;`, is of a shape that meets every other, which `file::collide` gets as
+/// it is.
 macro_rules! pairs {
-    ($Shape:ident in $Space:ident<$D:literal, $N:literal>: $($A:ident, $B:ident => $file:ident;)+) => {
+    (
+        $Shape:ident in $Space:ident<$D:literal, $N:literal>:
+        $([$C:ident, any] => $any:ident;)?
+        $($A:ident, $B:ident => $file:ident;)+
+    ) => {
         /// Whether the table has a row for these two.
         #[allow(unreachable_patterns, reason = "a pair of two alike is its own reverse")]
         pub(crate) fn has(a: &$Shape, b: &$Shape) -> bool {
             match (a, b) {
+                $(($Shape::$C(_), _) | (_, $Shape::$C(_)) => true,)?
                 $(($Shape::$A(_), $Shape::$B(_)) => true,
                 ($Shape::$B(_), $Shape::$A(_)) => true,)+
                 _ => false,
@@ -28,6 +34,11 @@ macro_rules! pairs {
             emit: &mut impl FnMut(u64, [f64; $D], [f64; $D], f64),
         ) {
             match (a, b) {
+                $(($Shape::$C(a), b) => $any::collide((a, pose_a), (b, pose_b), reach, emit),
+                (a, $Shape::$C(b)) => {
+                    let mut flipped = |feature, point, n: [f64; $D], gap| emit(feature, point, n.map(|x| -x), gap);
+                    $any::collide((b, pose_b), (a, pose_a), reach, &mut flipped);
+                })?
                 $(($Shape::$A(a), $Shape::$B(b)) => $file::collide((a, pose_a), (b, pose_b), reach, emit),
                 ($Shape::$B(b), $Shape::$A(a)) => {
                     let mut flipped = |feature, point, n: [f64; $D], gap| emit(feature, point, n.map(|x| -x), gap);

@@ -1,6 +1,6 @@
 //! From a scene to a world: the bodies in the order of the scene, then the walls of containers, then what is generated.
 
-use super::dimension::{SceneSpace, velocity_in_body};
+use super::dimension::{SceneSpace, vector, velocity_in_body};
 use super::error::Fault;
 use super::generate::{Arrangement, Generate};
 use super::lattice::Sites;
@@ -58,11 +58,6 @@ fn material(scene: &Scene, name: &str) -> u16 {
 
 fn density(scene: &Scene, name: &str) -> f64 {
     scene.materials.get(name).map_or(0.0, |material| material.density)
-}
-
-/// A vector of the scene; an empty one is zero.
-fn vector<const D: usize>(numbers: &[f64]) -> [f64; D] {
-    std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))
 }
 
 fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, spec: &BodySpec) -> Option<Body<S, D, N>> {

@@ -1,9 +1,9 @@
 //! What a scene makes differently in the plane and in space: shapes, orientations and velocities.
 
-use super::spec::ShapeSpec;
+use super::spec::{PartSpec, ShapeSpec};
 use super::values::{Angular, Numbers, Orientation, Turn};
 use crate::shape::plane::{Disk, HalfPlane, Polygon};
-use crate::shape::solid::{Ball, Cuboid, HalfSpace};
+use crate::shape::solid::{Ball, Compound, Cuboid, HalfSpace, Polyhedron};
 use crate::space::{Plane, Pose, Solid, Space};
 use glam::{DQuat, DVec3};
 
@@ -36,6 +36,11 @@ pub(super) fn velocity_in_body<S: Space<D, N>, const D: usize, const N: usize>(
 ) -> [f64; N] {
     // Velocities and loads split alike: the first part in the world, the second in the body.
     S::load_in_body(rotation, world)
+}
+
+/// A vector of the scene; an empty one is zero.
+pub(super) fn vector<const D: usize>(numbers: &[f64]) -> [f64; D] {
+    std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))
 }
 
 /// The vector of length 1 along `v`.
@@ -84,12 +89,28 @@ impl SceneSpace<2, 3> for Plane {
     }
 }
 
+/// Where a body is whose corners have their own coordinates, and in these its own frame.
+fn placed(corners: Pose<DQuat, 3>, own: Pose<DQuat, 3>) -> Pose<DQuat, 3> {
+    let position = DVec3::from(corners.position) + corners.rotation * DVec3::from(own.position);
+    Pose { position: position.into(), rotation: (corners.rotation * own.rotation).normalize() }
+}
+
 impl SceneSpace<3, 6> for Solid {
     fn place(spec: &ShapeSpec, position: [f64; 3], rotation: DQuat) -> Option<Placed<Self, 3, 6>> {
         match spec {
             ShapeSpec::Ball { radius } => Some((Self::round(*radius), Pose { position, rotation })),
             ShapeSpec::Box { size: Numbers(size) } => {
                 Some((Cuboid { half: size.map(|edge| 0.5 * edge) }.into(), Pose { position, rotation }))
+            }
+            ShapeSpec::Polyhedron { points } => {
+                let (shape, own) = Polyhedron::hull(&points.iter().map(|point| point.0).collect::<Vec<_>>()).ok()?;
+                Some((shape.into(), placed(Pose { position, rotation }, own)))
+            }
+            ShapeSpec::Compound { parts } => {
+                let part =
+                    |part: &PartSpec| Self::place(&part.shape, vector(&part.position), Self::rotation(part.orientation.as_ref()));
+                let (shape, own) = Compound::new(parts.iter().map(part).collect::<Option<_>>()?).ok()?;
+                Some((shape.into(), placed(Pose { position, rotation }, own)))
             }
             ShapeSpec::HalfSpace { normal: Numbers(normal) } => Some(Self::wall(position, unit(*normal))),
             _ => None,

@@ -146,8 +146,8 @@ pub struct BodySpec {
     pub shape: ShapeSpec,
     /// The name of its material.
     pub material: String,
-    /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon the place of the
-    /// vertices' origin, so that the centre of mass is there plus the turned centroid.
+    /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon, polyhedron or
+    /// compound the place of the origin of its corners or parts, so that the centre of mass is there plus the turned centroid.
     pub position: Vec<f64>,
     /// How it is turned: an angle in rad in the plane, a quaternion [x, y, z, w] in space, or in both a table such as
     /// { axis = [0, 0, 1], degrees = 30 }, in the plane without the axis. Not for half-spaces, which have a normal.
@@ -180,6 +180,17 @@ pub enum ShapeSpec {
         /// The lengths of its edges along its own axes, m.
         size: Numbers<3>,
     },
+    /// A convex polyhedron; in space.
+    Polyhedron {
+        /// Its corners in any order, m: the body is their convex hull.
+        points: Vec<Numbers<3>>,
+    },
+    /// Several shapes as one rigid body.
+    Compound {
+        /// The parts, at most 1024: bounded, convex, and not compounds. The mass is the sum of theirs; where they overlap, what they share
+        /// counts as often.
+        parts: Vec<PartSpec>,
+    },
     /// Everything below a plane; in space.
     HalfSpace {
         /// The direction out of it, of any length.
@@ -202,12 +213,27 @@ pub enum ShapeSpec {
     },
 }
 
+/// A part of a compound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartSpec {
+    /// Its form.
+    pub shape: ShapeSpec,
+    /// Where it is in the coordinates of the body, m, as for a body; default the origin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub position: Vec<f64>,
+    /// How it is turned, as for a body.
+    pub orientation: Option<Orientation>,
+}
+
 impl ShapeSpec {
     /// Its name in scene files.
     pub fn name(&self) -> &'static str {
         match self {
             ShapeSpec::Ball { .. } => "ball",
             ShapeSpec::Box { .. } => "box",
+            ShapeSpec::Polyhedron { .. } => "polyhedron",
+            ShapeSpec::Compound { .. } => "compound",
             ShapeSpec::HalfSpace { .. } => "half_space",
             ShapeSpec::Disk { .. } => "disk",
             ShapeSpec::Polygon { .. } => "polygon",
@@ -215,10 +241,11 @@ impl ShapeSpec {
         }
     }
 
-    /// The number of coordinates that it lives in.
+    /// The number of coordinates that it lives in; of a compound that of its first part.
     pub fn dimension(&self) -> usize {
         match self {
-            ShapeSpec::Ball { .. } | ShapeSpec::Box { .. } | ShapeSpec::HalfSpace { .. } => 3,
+            ShapeSpec::Compound { parts } => parts.first().map_or(3, |part| part.shape.dimension()),
+            ShapeSpec::Ball { .. } | ShapeSpec::Box { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => 3,
             ShapeSpec::Disk { .. } | ShapeSpec::Polygon { .. } | ShapeSpec::HalfPlane { .. } => 2,
         }
     }

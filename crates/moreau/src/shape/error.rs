@@ -58,6 +58,56 @@ pub enum ShapeError {
         /// Where.
         vertex: usize,
     },
+    /// Too few points for a body in space.
+    #[error("{count} points; a polyhedron needs at least 4")]
+    TooFewPoints {
+        /// How many were given.
+        count: usize,
+    },
+    /// A point of space that is nowhere, or so far that moments of inertia overflow.
+    #[error("point {vertex} is at ({x}, {y}, {z}); coordinates must be finite, and below 1e50 m")]
+    NotFinitePoint {
+        /// Which point.
+        vertex: usize,
+        /// What was given, m.
+        x: f64,
+        /// What was given, m.
+        y: f64,
+        /// What was given, m.
+        z: f64,
+    },
+    /// All points in one plane, or so near to one that they are no body.
+    #[error("the points lie in one plane to within rounding; a polyhedron needs a volume")]
+    NoVolume,
+    /// Points of which a hull cannot be told from rounding.
+    #[error(
+        "no convex polyhedron can be told from these points: some are nearer to each other, or to a common plane, than a millionth of the size"
+    )]
+    NoHull,
+    /// No parts, or more than contacts can number.
+    #[error("a compound of {count} parts; expected 1 to {most}")]
+    Parts {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// A part that is unbounded, concave or of parts itself.
+    #[error("part {index} is a {name}; parts are bounded, convex, and not of parts themselves")]
+    Part {
+        /// Which part, from 0.
+        index: usize,
+        /// The name of its shape.
+        name: &'static str,
+    },
+    /// More corners than contacts can number.
+    #[error("{count} corners; a convex polyhedron may have {most}")]
+    TooManyVertices {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
 }
 
 /// The length, if it is one.

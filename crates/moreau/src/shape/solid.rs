@@ -1,14 +1,20 @@
 //! The shapes of space. Lengths in m, volumes in m³.
 
 mod ball;
+mod compound;
 mod cuboid;
 mod faceted;
 mod half_space;
+mod inertia;
+mod polyhedron;
 
 pub use ball::Ball;
+pub use compound::{Compound, Part};
 pub use cuboid::Cuboid;
 pub use faceted::{Edge, Faceted};
 pub use half_space::HalfSpace;
+pub use inertia::Moments;
+pub use polyhedron::Polyhedron;
 
 use super::{Figure, Placed, Shape};
 use crate::detect::narrow::solid as pairs;
@@ -20,5 +26,7 @@ shapes! {
     SolidShape in Solid<3, 6>:
     Ball, "ball", "a ball of given radius";
     Cuboid, "box", "a rectangular box, by its edge lengths";
+    Polyhedron, "polyhedron", "a convex polyhedron, by its corners";
+    Compound, "compound", "several shapes as one rigid body";
     HalfSpace, "half_space", "all that lies below a plane: ground or wall, fixed or driven";
 }

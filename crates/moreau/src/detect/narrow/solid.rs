@@ -5,7 +5,11 @@ mod ball_half_space;
 mod box_ball;
 mod box_box;
 mod box_half_space;
+mod compound;
 mod facets;
+mod polyhedron_box;
+mod polyhedron_half_space;
+mod polyhedron_polyhedron;
 
 use crate::shape::{Placed, SolidShape};
 use crate::space::{Solid, Space};
@@ -15,11 +19,15 @@ type Pose = crate::space::Pose<<Solid as Space<3, 6>>::Rotation, 3>;
 
 pairs! {
     SolidShape in Solid<3, 6>:
+    [Compound, any] => compound;
     Ball, Ball => ball_ball;
     Ball, HalfSpace => ball_half_space;
     Cuboid, HalfSpace => box_half_space;
     Cuboid, Ball => box_ball;
     Cuboid, Cuboid => box_box;
+    Polyhedron, HalfSpace => polyhedron_half_space;
+    Polyhedron, Cuboid => polyhedron_box;
+    Polyhedron, Polyhedron => polyhedron_polyhedron;
 }
 
 #[cfg(test)]

@@ -3,9 +3,10 @@
 use super::{angular, material, plural, positive, region, vector};
 use crate::scene::error::Fault;
 use crate::scene::path::{KeyPath, key_path};
-use crate::scene::{BodySpec, Container, Face, MotionKind, Numbers, Orientation, Scene, ShapeSpec, Turn};
+use crate::scene::{BodySpec, Container, Face, MotionKind, Numbers, Orientation, PartSpec, Scene, ShapeSpec, Turn};
 use crate::shape::ShapeError;
 use crate::shape::plane::Polygon;
+use crate::shape::solid::{Compound, Polyhedron};
 use std::collections::BTreeMap;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
@@ -97,7 +98,8 @@ fn nonzero(path: &KeyPath, direction: &[f64]) -> Result<(), Fault> {
 fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<(), Fault> {
     let dimension = scene.dimension.number();
     if shape.dimension() != dimension {
-        let known = if dimension == 2 { "disk, polygon and half_plane" } else { "ball, box and half_space" };
+        let known =
+            if dimension == 2 { "disk, polygon and half_plane" } else { "ball, box, polyhedron, compound and half_space" };
         let message = format!("a {} where dimension = {dimension}", shape.name());
         return Err(Fault::new(path.clone(), message, format!("the shapes of dimension {dimension} are {known}")));
     }
@@ -110,21 +112,51 @@ fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<(), Fault> 
         ShapeSpec::HalfSpace { normal: Numbers(normal) } => nonzero(&path.then("normal"), normal),
         ShapeSpec::HalfPlane { normal: Numbers(normal) } => nonzero(&path.then("normal"), normal),
         ShapeSpec::Polygon { vertices } => polygon(&path.then("vertices"), vertices),
+        ShapeSpec::Compound { parts } => compound(scene, parts, &path.then("parts")),
+        ShapeSpec::Polyhedron { points } => polyhedron(&path.then("points"), points),
     }
 }
 
 /// What the shape itself says of its vertices.
 fn polygon(path: &KeyPath, vertices: &[Numbers<2>]) -> Result<(), Fault> {
     let Err(error) = Polygon::new(vertices.iter().map(|vertex| vertex.0).collect()) else { return Ok(()) };
-    let path = match error {
-        ShapeError::NotFinite { vertex, .. } | ShapeError::NoArea { vertex } | ShapeError::NotConvex { vertex } => {
-            path.then(vertex)
-        }
-        ShapeError::RepeatedVertex { second, .. } | ShapeError::SelfIntersecting { second, .. } => path.then(second),
-        ShapeError::TooFewVertices { .. } | ShapeError::Length { .. } => path.clone(),
-    };
     let hint = "expected the corners of a convex polygon, in order around it";
-    Err(Fault::new(path, format!("not a convex polygon: {error}"), hint))
+    Err(Fault::new(at_vertex(path, &error), format!("not a convex polygon: {error}"), hint))
+}
+
+fn polyhedron(path: &KeyPath, points: &[Numbers<3>]) -> Result<(), Fault> {
+    let Err(error) = Polyhedron::hull(&points.iter().map(|point| point.0).collect::<Vec<_>>()) else { return Ok(()) };
+    let hint = "expected the corners of a convex polyhedron, in any order";
+    Err(Fault::new(at_vertex(path, &error), format!("not a convex polyhedron: {error}"), hint))
+}
+
+fn compound(scene: &Scene, parts: &[PartSpec], path: &KeyPath) -> Result<(), Fault> {
+    let most = Compound::MOST_PARTS;
+    if !(1..=most).contains(&parts.len()) {
+        return Err(Fault::new(path.clone(), plural(parts.len(), "part"), format!("expected 1 to {most} parts")));
+    }
+    parts.iter().enumerate().try_for_each(|(i, part)| {
+        let path = path.then(i);
+        if part.shape.is_unbounded() || matches!(part.shape, ShapeSpec::Compound { .. }) {
+            let message = format!("a {} as a part of a compound", part.shape.name());
+            return Err(Fault::new(path.then("shape"), message, "expected a bounded, convex shape"));
+        }
+        shape(scene, &part.shape, &path.then("shape"))?;
+        vector(scene, path.then("position"), &part.position, true)?;
+        part.orientation.as_ref().map_or(Ok(()), |turn| orientation_of(scene, turn, &path.then("orientation")))
+    })
+}
+
+/// The place of the vertex that is to blame, if one is.
+fn at_vertex(path: &KeyPath, error: &ShapeError) -> KeyPath {
+    match *error {
+        ShapeError::NotFinite { vertex, .. }
+        | ShapeError::NotFinitePoint { vertex, .. }
+        | ShapeError::NoArea { vertex }
+        | ShapeError::NotConvex { vertex } => path.then(vertex),
+        ShapeError::RepeatedVertex { second, .. } | ShapeError::SelfIntersecting { second, .. } => path.then(second),
+        _ => path.clone(),
+    }
 }
 
 fn container_of(scene: &Scene, container: &Container, path: &KeyPath) -> Result<(), Fault> {

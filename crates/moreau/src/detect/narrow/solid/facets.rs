@@ -10,15 +10,18 @@
 mod axes;
 mod nearest;
 mod overlap;
+mod points;
 
 use super::Pose;
 use crate::detect::narrow::common::LEVEL;
 use crate::detect::narrow::vector::{along, dot, sub};
-use crate::shape::solid::Faceted;
+use crate::shape::solid::{Edge, Faceted};
 use crate::space::{Solid, Space};
 use axes::{Axis, best};
 use nearest::nearest;
-use overlap::{Points, overlap};
+use overlap::overlap;
+pub(super) use points::Points;
+use std::cell::RefCell;
 
 /// What makes a point, by its kind: 0 a vertex of the first body, 1 one of the second, 2 an edge of each by their numbers, 3 one of each by the
 /// vertices at which their faces' sides begin, or two vertices.
@@ -28,43 +31,72 @@ fn feature(kind: u64, a: usize, b: usize) -> u64 {
 
 /// A point of contact in the frame of the first body, on the surface of the second; the normal points from the first to the second.
 #[derive(Clone, Copy, Debug)]
-struct Point {
-    feature: u64,
-    at: [f64; 3],
-    normal: [f64; 3],
-    gap: f64,
+pub(super) struct Point {
+    pub(super) feature: u64,
+    pub(super) at: [f64; 3],
+    pub(super) normal: [f64; 3],
+    pub(super) gap: f64,
 }
 
-/// A body as seen in the frame of another.
+/// What a pair is computed in; each thread keeps its own from pair to pair, so that nothing is allocated anew.
+#[derive(Default)]
+struct Scratch {
+    a: Corners,
+    b: Corners,
+    points: Points,
+    /// The corners of two faces in their common plane.
+    flat: [Vec<[f64; 2]>; 2],
+    /// On which side of the plane across an edge the normals of the other body's faces are.
+    sides: Vec<i8>,
+}
+
+thread_local! {
+    static SCRATCH: RefCell<Scratch> = RefCell::default();
+}
+
+/// Vertices and normals of a body in the frame of the first.
+#[derive(Default)]
+struct Corners {
+    vertices: Vec<[f64; 3]>,
+    normals: Vec<[f64; 3]>,
+}
+
+impl Corners {
+    fn fill<F: Faceted>(&mut self, body: &F, place: impl Fn([f64; 3]) -> [f64; 3], turn: impl Fn([f64; 3]) -> [f64; 3]) {
+        self.vertices.clear();
+        self.vertices.extend((0..body.vertices()).map(|i| place(body.vertex(i))));
+        self.normals.clear();
+        self.normals.extend((0..body.faces()).map(|i| turn(body.normal(i))));
+    }
+}
+
+/// A body as seen in the frame of the first.
 #[derive(Clone, Copy)]
 struct Seen<'a, F> {
     body: &'a F,
-    pose: Pose,
+    vertices: &'a [[f64; 3]],
+    normals: &'a [[f64; 3]],
 }
 
 impl<'a, F: Faceted> Seen<'a, F> {
-    fn own(body: &'a F) -> Self {
-        Self { body, pose: Pose { position: [0.0; 3], rotation: Solid::IDENTITY } }
-    }
-
-    fn vertex(&self, i: usize) -> [f64; 3] {
-        along(self.pose.position, 1.0, Solid::rotate(self.pose.rotation, self.body.vertex(i)))
-    }
-
-    fn normal(&self, i: usize) -> [f64; 3] {
-        Solid::rotate(self.pose.rotation, self.body.normal(i))
+    fn new(body: &'a F, Corners { vertices, normals }: &'a Corners) -> Self {
+        Self { body, vertices, normals }
     }
 
     /// The vertex of face `i` and place `k` in it.
     fn corner(&self, face: usize, k: usize) -> [f64; 3] {
-        self.vertex(usize::from(self.body.face(face)[k]))
+        self.vertices[usize::from(self.body.face(face)[k])]
+    }
+
+    /// Both ends of an edge.
+    fn ends(&self, edge: &Edge) -> [[f64; 3]; 2] {
+        edge.ends.map(|end| self.vertices[usize::from(end)])
     }
 
     /// The face whose normal is most against this direction.
     fn facing(&self, direction: [f64; 3]) -> usize {
-        let inward = Solid::unrotate(self.pose.rotation, direction);
-        let against = |i: usize| dot(inward, self.body.normal(i));
-        (1..self.body.faces()).fold(0, |best, i| if against(i) < against(best) { i } else { best })
+        let against = |i: usize| dot(direction, self.normals[i]);
+        (1..self.normals.len()).fold(0, |best, i| if against(i) < against(best) { i } else { best })
     }
 }
 
@@ -74,27 +106,38 @@ pub(super) fn collide<A: Faceted, B: Faceted>(
     reach: f64,
     emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
+    let mut scratch = SCRATCH.take();
+    points((a, pose_a), (b, pose_b), reach, &mut scratch);
+    for &Point { feature, at, normal, gap } in scratch.points.all() {
+        let middle = Solid::rotate(pose_a.rotation, along(at, -0.5 * gap, normal));
+        emit(feature, along(pose_a.position, 1.0, middle), Solid::rotate(pose_a.rotation, normal), gap);
+    }
+    SCRATCH.set(scratch);
+}
+
+/// Leaves the points of contact in the scratch.
+fn points<A: Faceted, B: Faceted>((a, pose_a): (&A, &Pose), (b, pose_b): (&B, &Pose), reach: f64, scratch: &mut Scratch) {
+    let Scratch { a: corners_a, b: corners_b, points, flat, sides } = scratch;
+    points.clear();
     let position = Solid::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
-    let (a, b) =
-        (Seen::own(a), Seen { body: b, pose: Pose { position, rotation: pose_a.rotation.conjugate() * pose_b.rotation } });
+    let rotation = pose_a.rotation.conjugate() * pose_b.rotation;
+    let turn = |v| Solid::rotate(rotation, v);
+    corners_a.fill(a, |v| v, |n| n);
+    corners_b.fill(b, |v| along(position, 1.0, turn(v)), turn);
+    let (a, b) = (Seen::new(a, corners_a), Seen::new(b, corners_b));
     let level = LEVEL * (a.body.radius() + b.body.radius());
-    let Some((axis, apart)) = best(&a, &b, level, reach) else { return };
-    let mut points = Points::default();
+    let Some((axis, apart)) = best(&a, &b, position, sides, level, reach) else { return };
     match axis {
-        Axis::FaceOfFirst(face) => overlap(&a, face, &b, true, level, &mut points),
-        Axis::FaceOfSecond(face) => overlap(&b, face, &a, false, level, &mut points),
+        Axis::FaceOfFirst(face) => overlap(&a, face, &b, true, level, flat, points),
+        Axis::FaceOfSecond(face) => overlap(&b, face, &a, false, level, flat, points),
         Axis::Edges(point, true) => points.add(point),
         Axis::Edges(_, false) => {}
     }
     let least = points.all().iter().map(|point| point.gap).fold(f64::INFINITY, f64::min);
     // Where the bodies are apart and a face or two edges are nearest, the axis has their distance.
     if least > apart.max(0.0) + level {
-        points = Points::default();
+        points.clear();
         points.add(nearest(&a, &b, &axis, apart, level));
     }
     points.spread(level, reach);
-    for &Point { feature, at, normal, gap } in points.all() {
-        let middle = Solid::rotate(pose_a.rotation, along(at, -0.5 * gap, normal));
-        emit(feature, along(pose_a.position, 1.0, middle), Solid::rotate(pose_a.rotation, normal), gap);
-    }
 }

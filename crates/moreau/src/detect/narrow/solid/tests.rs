@@ -4,6 +4,7 @@ use crate::shape::solid::{Ball, Cuboid, HalfSpace};
 use glam::{DQuat, DVec3};
 
 mod boxes;
+mod polyhedra;
 
 type Found = (u64, [f64; 3], [f64; 3], f64);
 

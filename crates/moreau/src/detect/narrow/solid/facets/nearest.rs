@@ -35,20 +35,20 @@ pub(super) fn nearest<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, 
             best = (dot(between, between), feature, [on_a, on_b]);
         }
     };
-    for i in 0..a.body.vertices() {
-        for j in 0..b.body.vertices() {
-            meet(feature(3, i, j), a.vertex(i), b.vertex(j));
+    for (i, &on_a) in a.vertices.iter().enumerate() {
+        for (j, &on_b) in b.vertices.iter().enumerate() {
+            meet(feature(3, i, j), on_a, on_b);
         }
     }
-    for (j, edge) in b.body.edges().iter().enumerate() {
-        let ends = edge.ends.map(|end| b.vertex(usize::from(end)));
-        (0..a.body.vertices())
-            .for_each(|i| within(ends, a.vertex(i)).into_iter().for_each(|on_b| meet(feature(0, i, j), a.vertex(i), on_b)));
+    for (j, ends) in b.body.edges().iter().map(|edge| b.ends(edge)).enumerate() {
+        for (i, &on_a) in a.vertices.iter().enumerate() {
+            within(ends, on_a).into_iter().for_each(|on_b| meet(feature(0, i, j), on_a, on_b));
+        }
     }
-    for (i, edge) in a.body.edges().iter().enumerate() {
-        let ends = edge.ends.map(|end| a.vertex(usize::from(end)));
-        (0..b.body.vertices())
-            .for_each(|j| within(ends, b.vertex(j)).into_iter().for_each(|on_a| meet(feature(1, i, j), on_a, b.vertex(j))));
+    for (i, ends) in a.body.edges().iter().map(|edge| a.ends(edge)).enumerate() {
+        for (j, &on_b) in b.vertices.iter().enumerate() {
+            within(ends, on_b).into_iter().for_each(|on_a| meet(feature(1, i, j), on_a, on_b));
+        }
     }
     let (square, feature, [on_a, on_b]) = best;
     let gap = square.sqrt();
@@ -56,8 +56,8 @@ pub(super) fn nearest<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, 
         return Point { feature, at: on_b, normal: sub(on_b, on_a).map(|x| x / gap), gap };
     }
     let normal = match axis {
-        Axis::FaceOfFirst(face) => a.normal(*face),
-        Axis::FaceOfSecond(face) => b.normal(*face).map(|x| -x),
+        Axis::FaceOfFirst(face) => a.normals[*face],
+        Axis::FaceOfSecond(face) => b.normals[*face].map(|x| -x),
         Axis::Edges(point, _) => point.normal,
     };
     Point { feature, at: on_b, normal, gap: apart }
