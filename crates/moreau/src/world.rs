@@ -39,6 +39,9 @@ pub struct StepSettings {
     pub h: f64,
     /// θ of the θ-method, from 1/2 to 1 (eq. 13).
     pub theta: f64,
+    /// How deep bodies may overlap before their positions are corrected, as a part of the smaller one's bounding radius; `None` for no
+    /// correction.
+    pub max_penetration: Option<f64>,
     /// First impulses of a solve.
     pub start: Start,
     /// What to do when a solve fails.

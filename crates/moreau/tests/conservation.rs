@@ -51,7 +51,8 @@ fn cluster<S: Space<D, N>, const D: usize, const N: usize>(
         bodies.push(body);
     }
     let solver = Settings { local, criterion: Criterion::Scaled, tolerance: 1e-11, max_sweeps: 100_000, ..Settings::default() };
-    let settings = StepSettings { h: 1e-3, theta: 0.5, start: Start::Cold, on_failure: OnFailure::Stop, solver };
+    let settings =
+        StepSettings { h: 1e-3, theta: 0.5, max_penetration: None, start: Start::Cold, on_failure: OnFailure::Stop, solver };
     World { bodies, laws: Laws::new(1, law), gravity: [0.0; D], settings, time: 0.0, steps: 0 }
 }
 

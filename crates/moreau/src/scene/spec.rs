@@ -47,6 +47,10 @@ pub struct Solver {
     pub order: Order,
     /// Whether contacts of round bodies are visited several at a time.
     pub kernels: Kernels,
+    /// How deep two bodies may overlap, as a part of the smaller one's bounding radius: where they are deeper at the end of a step, bodies are
+    /// moved apart, without a change of velocities. Default: never.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_penetration: Option<f64>,
     /// What to do when a solve reaches its limit of sweeps.
     pub on_failure: OnFailure,
     /// ρ of sbp, sal, ebp and eal: "auto", { relative = factor } or { absolute = kg }.
@@ -73,6 +77,7 @@ impl Default for Solver {
             start,
             order,
             kernels,
+            max_penetration: None,
             on_failure,
             rho,
             gamma,

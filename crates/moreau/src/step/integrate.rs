@@ -5,7 +5,7 @@ use crate::space::{Pose, Space};
 use moreau_solve::tasks;
 
 /// The pose after the time `h` at the constant velocity `v`.
-fn moved<S: Space<D, N>, const D: usize, const N: usize>(
+pub(super) fn moved<S: Space<D, N>, const D: usize, const N: usize>(
     pose: &Pose<S::Rotation, D>,
     v: &[f64; N],
     h: f64,

@@ -1,5 +1,6 @@
 //! The step, on one screen: Moreau-Jean time stepping (section 3 of Barboteu & Dumont 2017; Jean 1999).
 
+use super::correct;
 use super::failed::{self, FAILED_KEPT, FailedSolve};
 use super::localise::{Localiser, rounding};
 use super::record::{StepRecord, energies};
@@ -47,6 +48,7 @@ pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
         return Err(error);
     }
     work.before = None;
+    correct::positions(world, work);
     world.steps += 1;
     // Halves add up to h only to rounding; the clock counts whole steps.
     world.time = end;

@@ -14,7 +14,7 @@ pub struct Energy {
     pub kinetic: f64,
     /// −Σ m g·x.
     pub potential: f64,
-    /// Done by constant forces and torques and by driven bodies.
+    /// Done by constant forces and torques, by driven bodies, and by corrections of positions.
     pub work: f64,
     /// Lost in contacts, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round.
     pub dissipated: f64,
@@ -140,6 +140,11 @@ impl Ledger {
         let contacts = tasks::sums(0..contacts.len(), &of_contact);
         self.work += bodies[0] + contacts[0];
         self.dissipated += bodies[1] + contacts[1];
+    }
+
+    /// Books what a correction of positions did to the potential energy.
+    pub(super) fn lift(&mut self, energy: f64) {
+        self.work += energy;
     }
 
     /// Books what the scheme takes beside.

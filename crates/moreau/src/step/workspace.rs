@@ -1,5 +1,6 @@
 //! Scratch of a step: buffers that are written anew each time and kept, and what observers read of the last step.
 
+use super::correct::Correction;
 use super::failed::{Failed, FailedSolve};
 use super::localise::Spins;
 use super::record::Ledger;
@@ -84,6 +85,7 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) previous: Vec<(ContactKey, [f64; D])>,
     pub(super) curve: Curve,
     pub(super) systems: Systems<S, D, N>,
+    pub(super) correction: Correction<D, N>,
     pub(super) ledger: Ledger,
     pub(super) before: Option<Before<S, D, N>>,
     pub(super) failed: Failed,
@@ -104,6 +106,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             previous: Vec::new(),
             curve: Curve::default(),
             systems: Systems::default(),
+            correction: Correction::default(),
             ledger: Ledger::default(),
             before: None,
             failed: Failed::default(),

@@ -1,0 +1,110 @@
+//! Positions put right where bodies overlap by more than is allowed.
+//!
+//! The scheme forbids velocities that would make an overlap deeper, but keeps one that is there: of an impact that was found a step late, of
+//! frames that turned during a step, of the solver's tolerance over many steps. Where an overlap exceeds the allowed part ε of the smaller
+//! body's radius R, all bodies are moved by the least displacement in the norm of M that leaves none deeper than half of that,
+//!
+//!   min ½ δ·M δ   with   gap + H_n* δ ≥ −½ ε R   at every contact,
+//!
+//! which is the problem of a step without friction with gaps for velocities; theory (56). Velocities stay as they are, so no kinetic energy
+//! is made; what weights gain in height is booked as work.
+
+use super::integrate::moved;
+use super::localise::rounding;
+use super::record::energies;
+use super::system::Kind;
+use super::{Localised, Workspace};
+use crate::bodies::Bodies;
+use crate::contacts::Contact;
+use crate::shape::Shape;
+use crate::space::Space;
+use crate::world::World;
+use moreau_solve::{Criterion, Settings};
+
+/// How often the problem, which is linear in δ, is posed anew in one step.
+const ROUNDS: usize = 4;
+
+/// What a solve of it is good for: a displacement is right to a small part of what is allowed.
+const TOLERANCE: f64 = 1e-6;
+
+/// Scratch, kept from step to step.
+pub(super) struct Correction<const D: usize, const N: usize> {
+    reach: Vec<f64>,
+    found: Vec<Contact<D>>,
+    contacts: Vec<Localised<D>>,
+    displacement: Vec<[f64; N]>,
+}
+
+impl<const D: usize, const N: usize> Default for Correction<D, N> {
+    fn default() -> Self {
+        Self { reach: Vec::new(), found: Vec::new(), contacts: Vec::new(), displacement: Vec::new() }
+    }
+}
+
+/// Puts the positions right at the end of a step, if that is asked for and some overlap at its predicted configuration is too deep.
+pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+) {
+    let Some(part) = world.settings.max_penetration else { return };
+    let too_deep = |bodies: &Bodies<S, D, N>, found: &[Contact<D>]| found.iter().any(|c| -c.gap > allowed(bodies, c, part));
+    if !too_deep(&world.bodies, &work.found) {
+        return;
+    }
+    let (_, before) = energies(&world.bodies, &world.gravity);
+    for _ in 0..ROUNDS {
+        detect(world, work, part);
+        if !too_deep(&world.bodies, &work.correction.found) {
+            break;
+        }
+        displace(world, work, part);
+    }
+    let (_, after) = energies(&world.bodies, &world.gravity);
+    work.ledger.lift(after - before);
+}
+
+/// How deep two bodies may overlap, m.
+fn allowed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, contact: &Contact<D>, part: f64) -> f64 {
+    let radius = |body: u32| bodies.shape[body as usize].bounding_radius().unwrap_or(f64::INFINITY);
+    part * radius(contact.key.a).min(radius(contact.key.b))
+}
+
+/// The contacts of the bodies where they are, with those that a displacement may close.
+fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, work: &mut Workspace<S, D, N>, part: f64) {
+    let (bodies, correction) = (&world.bodies, &mut work.correction);
+    correction.reach.clear();
+    correction.reach.extend((0..bodies.len()).map(|i| {
+        let radius = bodies.shape[i].bounding_radius().unwrap_or(0.0);
+        let far = bodies.pose[i].position.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
+        part * radius + rounding(radius, far)
+    }));
+    let driven = |i: usize| !bodies.is_free(i);
+    work.detector.detect::<S, N>(&bodies.shape, &bodies.pose, &correction.reach, driven, &mut correction.found);
+}
+
+/// Moves the bodies by the least displacement that helps.
+fn displace<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    part: f64,
+) {
+    let (bodies, correction) = (&mut world.bodies, &mut work.correction);
+    correction.contacts.clear();
+    correction.contacts.extend(correction.found.iter().map(|contact| {
+        let mut room = [0.0; D];
+        room[0] = contact.gap + 0.5 * allowed(bodies, contact, part);
+        Localised::new(*contact, S::frame(contact.normal), None, [[0.0; D], room, [0.0; D]])
+    }));
+    let system = work.systems.get(Kind::Normal);
+    system.fill(bodies, &bodies.pose, &correction.contacts, &mut work.curve);
+    let settings = Settings { criterion: Criterion::Scaled, tolerance: TOLERANCE, history: false, ..world.settings.solver };
+    system.solve(&settings);
+    correction.displacement.clear();
+    correction.displacement.resize(bodies.len(), [0.0; N]);
+    system.deposit(bodies, &bodies.pose, &mut correction.displacement);
+    for (pose, displacement) in bodies.pose.iter_mut().zip(&correction.displacement) {
+        if displacement.iter().all(|x| x.is_finite()) && *displacement != [0.0; N] {
+            *pose = moved::<S, D, N>(pose, displacement, 1.0);
+        }
+    }
+}
