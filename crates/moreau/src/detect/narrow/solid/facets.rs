@@ -93,10 +93,19 @@ impl<'a, F: Faceted> Seen<'a, F> {
         edge.ends.map(|end| self.vertices[usize::from(end)])
     }
 
-    /// The face whose normal is most against this direction.
-    fn facing(&self, direction: [f64; 3]) -> usize {
-        let against = |i: usize| dot(direction, self.normals[i]);
-        (1..self.normals.len()).fold(0, |best, i| if against(i) < against(best) { i } else { best })
+    /// The face that faces this direction: of those with the most corners that lie farthest against it, to within `level`, the one whose
+    /// normal is most against it. Without the corners it could be a large face beside a tip.
+    fn facing(&self, direction: [f64; 3], level: f64) -> usize {
+        let height = |i: usize| dot(direction, self.vertices[i]);
+        let lowest = (0..self.vertices.len()).map(height).fold(f64::INFINITY, f64::min) + level;
+        let count = |face: usize| self.body.face(face).iter().filter(|&&i| height(usize::from(i)) <= lowest).count();
+        let against = |face: usize| dot(direction, self.normals[face]);
+        let first = (0, count(0), against(0));
+        let better = |best: (usize, usize, f64), face: usize| {
+            let next = (face, count(face), against(face));
+            if next.1 > best.1 || (next.1 == best.1 && next.2 < best.2) { next } else { best }
+        };
+        (1..self.normals.len()).fold(first, better).0
     }
 }
 

@@ -60,7 +60,7 @@ pub(super) fn overlap<A: Faceted, B: Faceted>(
 ) {
     let normal = own.normals[face];
     let [_, s, t] = Solid::frame(normal);
-    let facing = other.facing(normal);
+    let facing = other.facing(normal, level);
     let ours = Flat::new(own, face, [s, t], 1.0, flat_ours);
     let theirs = Flat::new(other, facing, [s, t], -1.0, flat_theirs);
     let (base, their_normal) = (ours.corner(0), other.normals[facing]);
