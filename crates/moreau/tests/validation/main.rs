@@ -4,8 +4,10 @@ mod arch;
 mod blocks;
 mod chain;
 mod cylinders;
+mod hexagonal;
 mod impacts;
 mod reactions;
+mod rocking;
 mod rolling;
 
 use moreau::scene::{AnyWorld, Scene};
