@@ -1,5 +1,6 @@
 //! One step of the Moreau-Jean scheme, stage by stage.
 
+mod correct;
 mod failed;
 mod forces;
 mod integrate;
