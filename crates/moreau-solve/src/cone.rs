@@ -28,6 +28,12 @@ pub enum Cone {
     /// The tangential velocity is held: u_T = 0 and 0 ≤ u_n ⊥ r_n ≥ 0, the impulses being a half space. It is Coulomb's cone for
     /// μ → ∞, and convex; the law that uses it decides by the gap whether a contact is held.
     Sticking,
+    /// A bilateral constraint, as of a joint: u_i = 0 and r_i free for each component i that is held, r_i = 0 and u_i free for the
+    /// others. K is the subspace of the held components and K* that of the others (theory (55)).
+    Bilateral {
+        /// Bit i says that component i is held.
+        held: u8,
+    },
 }
 
 impl Cone {
@@ -36,7 +42,17 @@ impl Cone {
     pub fn friction(self) -> f64 {
         match self {
             Cone::Coulomb(mu) | Cone::Rolling { mu, .. } => mu,
-            Cone::Signorini | Cone::Sticking => 0.0,
+            Cone::Signorini | Cone::Sticking | Cone::Bilateral { .. } => 0.0,
+        }
+    }
+
+    /// Whether the law says anything of component i of the velocity; if not, that component of the impulse is zero.
+    #[inline]
+    pub fn binds(self, i: usize) -> bool {
+        match self {
+            Cone::Signorini => i == 0,
+            Cone::Bilateral { held } => is_held(held, i),
+            Cone::Coulomb(_) | Cone::Rolling { .. } | Cone::Sticking => true,
         }
     }
 
@@ -48,7 +64,7 @@ impl Cone {
         match self {
             Cone::Coulomb(mu) => hat[0] += mu * tangent_norm(u),
             Cone::Rolling { mu, mu_r } => hat[0] += rolling::lift(mu, mu_r, *u),
-            Cone::Signorini | Cone::Sticking => {}
+            Cone::Signorini | Cone::Sticking | Cone::Bilateral { .. } => {}
         }
         hat
     }
@@ -62,7 +78,7 @@ impl Cone {
                 std::array::from_fn(|j| if j > 0 && slip > 0.0 { mu * u[j] / slip } else { 0.0 })
             }
             Cone::Rolling { mu, mu_r } => rolling::hat_gradient(mu, mu_r, *u),
-            Cone::Signorini | Cone::Sticking => [0.0; D],
+            Cone::Signorini | Cone::Sticking | Cone::Bilateral { .. } => [0.0; D],
         }
     }
 
@@ -86,6 +102,7 @@ impl Cone {
                 (value, derivative)
             }
             Cone::Sticking => project_normal(tau, 1.0),
+            Cone::Bilateral { held } => project_held(held, tau),
         }
     }
 
@@ -111,6 +128,7 @@ impl Cone {
             Cone::Coulomb(_) | Cone::Signorini => project_normal(tau, 0.0).0,
             Cone::Rolling { mu, mu_r } => rolling::project(mu, mu_r, *tau).0,
             Cone::Sticking => project_normal(tau, 1.0).0,
+            Cone::Bilateral { held } => project_held(held, tau).0,
         }
     }
 
@@ -144,6 +162,20 @@ fn project_normal<const D: usize>(tau: &Vector<D>, keep: f64) -> (Vector<D>, Mat
     let weight = |i: usize| if i == 0 { closed } else { keep };
     let derivative = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { weight(i) } else { 0.0 }));
     (std::array::from_fn(|i| if weight(i) > 0.0 { tau[i] } else { 0.0 }), derivative)
+}
+
+/// Whether bit i of `held` is set.
+#[inline]
+pub(crate) fn is_held(held: u8, i: usize) -> bool {
+    held.checked_shr(i as u32).is_some_and(|bits| bits & 1 == 1)
+}
+
+/// The projection on the subspace of the held components.
+#[inline]
+fn project_held<const D: usize>(held: u8, tau: &Vector<D>) -> (Vector<D>, Matrix<D>) {
+    let keep = |i: usize| f64::from(u8::from(is_held(held, i)));
+    let derivative = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { keep(i) } else { 0.0 }));
+    (std::array::from_fn(|i| if is_held(held, i) { tau[i] } else { 0.0 }), derivative)
 }
 
 /// The orthogonal projection on K_μ.

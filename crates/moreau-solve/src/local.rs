@@ -3,8 +3,9 @@
 //! A visit gets the block W_cc, the law, and the pair (u, r) as the equation of motion has it; it returns a new impulse and, for
 //! methods that are exact in the law rather than in the motion, the velocity that they claim. Without friction all of them solve
 //! 0 ≤ u_n ⊥ r_n ≥ 0; with friction, Coulomb's law in two and three dimensions, and rolling friction
-//! with three and five components. Blocks may be singular, somewhat unsymmetric or zero: no visit makes of finite numbers others.
+//! with three and five components; and bilateral constraints, of whichever components. Blocks may be singular, somewhat unsymmetric or zero: no visit makes of finite numbers others.
 
+mod bilateral;
 mod eal;
 mod ebp;
 mod exact;

@@ -5,7 +5,8 @@
 //! - ε_motion = ‖ũ_c − u_c‖, the velocity ũ that the local solver claims against u = W r + q recomputed from all impulses; zero for
 //!   methods that claim none (SBP and SAL);
 //! - ε_bipotential = |ũ·r + μ r_n ‖ũ_T‖|, which vanishes if (ũ, r) obeys the law;
-//! - ε_penetration = −min(0, ũ_n), with ‖ũ_T‖ added for a sticking contact, whose tangential velocity must vanish.
+//! - ε_penetration = −min(0, ũ_n), with ‖ũ_T‖ added for a sticking contact, whose tangential velocity must vanish; the length of what is
+//!   held of a bilateral constraint.
 //!
 //! It adds velocities and an energy, so its meaning changes with the units. The scaled residual does not:
 //!
@@ -107,22 +108,35 @@ fn larger(a: f64, b: f64) -> f64 {
 /// What the three terms of eq. 42 are at one contact.
 #[inline]
 fn eps_glob<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &Vector<D>) -> EpsGlob {
+    if let Cone::Bilateral { .. } = cone {
+        return eps_glob_bilateral(cone, claimed, u, r);
+    }
     let slip = tangent_norm(claimed);
     let held = if cone == Cone::Sticking { slip } else { 0.0 };
     // A contact without friction has no law for its tangent.
     let (power, motion) = match cone {
         Cone::Signorini => (claimed[0] * r[0], (claimed[0] - u[0]).abs()),
         Cone::Coulomb(mu) => (dot(claimed, r) + mu * r[0] * slip, norm(&sub(claimed, u))),
-        Cone::Sticking => (dot(claimed, r), norm(&sub(claimed, u))),
+        Cone::Sticking | Cone::Bilateral { .. } => (dot(claimed, r), norm(&sub(claimed, u))),
         Cone::Rolling { .. } => (dot(&cone.hat(claimed), r), norm(&sub(claimed, u))),
     };
     EpsGlob { motion, bipotential: power.abs(), penetration: (-claimed[0]).max(0.0) + held }
 }
 
-/// u, or its normal part where the law has no tangent.
+/// The same of a bilateral constraint: only what is held counts, and its velocity in whichever direction is a violation.
+#[cold]
+fn eps_glob_bilateral<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &Vector<D>) -> EpsGlob {
+    let (claimed, u) = (seen(cone, claimed), seen(cone, u));
+    EpsGlob { motion: norm(&sub(&claimed, &u)), bipotential: dot(&claimed, r).abs(), penetration: norm(&claimed) }
+}
+
+/// u, or of it what the law speaks of: the normal part without friction, the held components of a bilateral constraint.
 #[inline]
 fn seen<const D: usize>(cone: Cone, u: &Vector<D>) -> Vector<D> {
-    if cone == Cone::Signorini { std::array::from_fn(|i| if i == 0 { u[0] } else { 0.0 }) } else { *u }
+    match cone {
+        Cone::Signorini | Cone::Bilateral { .. } => std::array::from_fn(|i| if cone.binds(i) { u[i] } else { 0.0 }),
+        Cone::Coulomb(_) | Cone::Rolling { .. } | Cone::Sticking => *u,
+    }
 }
 
 /// w ‖r − P_K(r − û/w)‖ at one contact. A contact that impulses do not move, w = 0, leaves of it the distance of û to K*.
@@ -206,7 +220,8 @@ fn measured<O: Operator<D>, const D: usize>(
         let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
         all.speeds += squared(&q) + squared(&u);
         all.motion += claimed.map_or(0.0, |claimed| squared(&sub(&in_one_unit(problem, c, &claimed[c], &r).u, &u)));
-        let (beyond, normalised) = if D == 1 { pair_of_one(w, u[0], r[0]) } else { pair_of_cones(cone, w, &u, &r) };
+        let half_line = D == 1 && !matches!(cone, Cone::Bilateral { .. });
+        let (beyond, normalised) = if half_line { pair_of_one(w, u[0], r[0]) } else { pair_of_cones(cone, w, &u, &r) };
         all.outside += beyond * beyond;
         all.power += normalised * normalised;
         let error = natural(cone, w, &u, &r);
@@ -355,6 +370,7 @@ fn in_one_unit<O: Operator<D>, const D: usize>(
     let (cone, q, block) = (problem.cones[c], &problem.q[c], problem.operator.diagonal(c));
     match cone {
         Cone::Signorini => Measured { cone, w: block[0][0], q: seen(cone, q), u: seen(cone, u), r: *r },
+        Cone::Bilateral { .. } => Measured { cone, w: mean_diagonal(problem, c), q: seen(cone, q), u: seen(cone, u), r: *r },
         Cone::Rolling { mu, mu_r } => {
             let (w, arm) = arm(&block);
             let turned = |a: &Vector<D>, by: f64| std::array::from_fn(|i| if i >= D.div_ceil(2) { by * a[i] } else { a[i] });
@@ -369,6 +385,10 @@ fn in_one_unit<O: Operator<D>, const D: usize>(
 #[inline]
 pub(crate) fn mean_diagonal<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, c: usize) -> f64 {
     let block = problem.operator.diagonal(c);
+    if let cone @ Cone::Bilateral { .. } = problem.cones[c] {
+        let held = (0..D).filter(|&i| cone.binds(i));
+        return held.clone().map(|i| block[i][i]).sum::<f64>() / held.count().max(1) as f64;
+    }
     let known = if problem.cones[c] == Cone::Signorini { 1 } else { D };
     (0..known).map(|i| block[i][i]).sum::<f64>() / known as f64
 }

@@ -32,6 +32,10 @@ fn direction<const D: usize>(rng: &mut Pcg64Mcg, range: std::ops::Range<usize>) 
 /// A pair (u, r) of the law: open, or pushing with each part of the tangent held or slipping.
 fn pair<const D: usize>(rng: &mut Pcg64Mcg, cone: Cone) -> (Vector<D>, Vector<D>) {
     let (mut u, mut r) = ([0.0; D], [0.0; D]);
+    if let Cone::Bilateral { held } = cone {
+        (0..D).for_each(|i| *(if held >> i & 1 == 1 { &mut r[i] } else { &mut u[i] }) = draw(rng));
+        return (u, r);
+    }
     let open = rng.random_bool(0.3);
     if open {
         u[0] = rng.random_range(0.1..1.0);
@@ -47,6 +51,7 @@ fn pair<const D: usize>(rng: &mut Pcg64Mcg, cone: Cone) -> (Vector<D>, Vector<D>
             (1..D).for_each(|i| r[i] = draw(rng));
             vec![]
         }
+        Cone::Bilateral { .. } => vec![],
     };
     for (range, mu) in parts {
         let (way, slips) = (direction::<D>(rng, range.clone()), rng.random_bool(0.5));
@@ -96,12 +101,17 @@ fn times<const D: usize>(w: &[Vec<Block<D>>], r: &[Vector<D>]) -> Vec<Vector<D>>
 }
 
 fn build<const D: usize>(seed: u64, cone: Cone, contacts: usize, deficient: bool) -> Built<D> {
-    let rng = &mut Pcg64Mcg::seed_from_u64(seed);
+    build_of(seed, vec![cone; contacts], deficient)
+}
+
+/// The same with a law for each contact.
+fn build_of<const D: usize>(seed: u64, cones: Vec<Cone>, deficient: bool) -> Built<D> {
+    let (rng, contacts) = (&mut Pcg64Mcg::seed_from_u64(seed), cones.len());
     let w = delassus(rng, contacts, deficient);
-    let (u, r): (Vec<_>, Vec<_>) = (0..contacts).map(|_| pair(rng, cone)).unzip();
+    let (u, r): (Vec<_>, Vec<_>) = cones.iter().map(|&cone| pair(rng, cone)).unzip();
     let wr = times(&w, &r);
     let q = u.iter().zip(&wr).map(|(u, wr)| std::array::from_fn(|i| u[i] - wr[i])).collect();
-    Built { w, q, cones: vec![cone; contacts], u }
+    Built { w, q, cones, u }
 }
 
 fn settings(global: GlobalMethod) -> Settings {
@@ -121,7 +131,7 @@ fn unsuited<const D: usize>(method: GlobalMethod, cone: Cone) -> bool {
     let pivots = match cone {
         Cone::Signorini => true,
         Cone::Coulomb(mu) => mu == 0.0 || D == 2,
-        Cone::Rolling { .. } | Cone::Sticking => false,
+        Cone::Rolling { .. } | Cone::Sticking | Cone::Bilateral { .. } => false,
     };
     method == GlobalMethod::Lemke && !pivots
 }
@@ -135,7 +145,9 @@ fn violation<const D: usize>(built: &Built<D>, u: &[Vector<D>], r: &[Vector<D>])
         let w = (0..D).map(|i| built.w[c][c][i][i]).sum::<f64>() / D as f64;
         let split = if matches!(built.cones[c], Cone::Rolling { .. }) { D.div_ceil(2) } else { D };
         let mut add = |x: f64| errors += x * x;
-        add(u[0].min(w * r[0]));
+        if !matches!(built.cones[c], Cone::Bilateral { .. }) {
+            add(u[0].min(w * r[0]));
+        }
         let mut part = |range: std::ops::Range<usize>, mu: f64| {
             let (slip, force) = (&u[range.clone()], &r[range]);
             let power: f64 = slip.iter().zip(force).map(|(u, r)| u * r).sum();
@@ -151,6 +163,7 @@ fn violation<const D: usize>(built: &Built<D>, u: &[Vector<D>], r: &[Vector<D>])
                 part(split..D, mu_r);
             }
             Cone::Sticking => add(size(&u[1..])),
+            Cone::Bilateral { held } => (0..D).for_each(|i| add(if held >> i & 1 == 1 { u[i] } else { w * r[i] })),
         }
         speeds += built.q[c].iter().chain(u).map(|x| x * x).sum::<f64>();
     }
@@ -184,7 +197,7 @@ fn conforms<const D: usize>(cone: Cone) {
 fn check_velocities<const D: usize>(built: &Built<D>, u: &[Vector<D>], deficient: bool, what: &str) {
     for c in 0..u.len() {
         let unique = match built.cones[c] {
-            Cone::Sticking => 0..D,
+            Cone::Sticking | Cone::Bilateral { .. } => 0..D,
             // Without friction only the normals have a law; they are all that other contacts feel, but not all that the motion is.
             Cone::Signorini => 0..1,
             Cone::Coulomb(mu) if mu <= 0.01 && !deficient => 0..if mu == 0.0 { 1 } else { D },
@@ -217,6 +230,34 @@ fn all_methods_solve_with_friction_in_space() {
 fn all_methods_hold_what_sticks() {
     conforms::<2>(Cone::Sticking);
     conforms::<3>(Cone::Sticking);
+}
+
+#[test]
+fn all_methods_hold_joints() {
+    conforms::<1>(Cone::Bilateral { held: 0b1 });
+    conforms::<2>(Cone::Bilateral { held: 0b11 });
+    conforms::<2>(Cone::Bilateral { held: 0b10 });
+    conforms::<3>(Cone::Bilateral { held: 0b111 });
+    conforms::<3>(Cone::Bilateral { held: 0b110 });
+}
+
+/// Joints and contacts with friction in one problem.
+#[test]
+fn all_methods_solve_joints_among_contacts() {
+    for &(method, row) in GLOBAL_METHODS.iter().filter(|(method, _)| *method != GlobalMethod::Lemke) {
+        for (seed, contacts) in (0..8).zip(3..) {
+            let law =
+                |c: usize| if c.is_multiple_of(3) { Cone::Coulomb(0.3) } else { Cone::Bilateral { held: 0b111 >> (c % 2) } };
+            let built = build_of::<3>(seed, (0..contacts).map(law).collect(), false);
+            let (report, r) = solved(&built, &settings(method));
+            let what = format!("{}, {contacts} contacts", row.name);
+            assert_eq!(report.status, Status::Converged, "{what}: {:e} after {}", report.residual.scaled, report.sweeps);
+            let mut u = times(&built.w, &r);
+            (0..contacts).for_each(|c| (0..3).for_each(|i| u[c][i] += built.q[c][i]));
+            let violation = violation(&built, &u, &r);
+            assert!(violation < 1e-7, "{what}: the laws are violated by {violation:e}");
+        }
+    }
 }
 
 #[test]
@@ -256,7 +297,8 @@ fn keeps_units<const D: usize>(cone: Cone) {
 #[test]
 fn units_change_neither_status_nor_residual() {
     keeps_units::<1>(Cone::Signorini);
-    for cone in [Cone::Signorini, Cone::Sticking, Cone::Coulomb(0.0), Cone::Coulomb(0.3)] {
+    let held = Cone::Bilateral { held: 0b11 };
+    for cone in [Cone::Signorini, Cone::Sticking, held, Cone::Coulomb(0.0), Cone::Coulomb(0.3)] {
         keeps_units::<2>(cone);
         keeps_units::<3>(cone);
     }

@@ -49,6 +49,17 @@ proptest! {
         derivative_matches(rolling(m), [tau[0], tau[1], tau[2]], k % 3)?;
     }
 
+    /// A subspace and its orthogonal complement: what is held of an impulse, and what is not of a velocity.
+    #[test]
+    fn a_bilateral_projection_splits_orthogonally(held in 0u8..8, tau in prop::array::uniform3(-5.0..5.0f64), k in 0usize..3) {
+        let cone = Cone::Bilateral { held };
+        let (p, dual) = (cone.nearest(&tau), cone.project_dual(&tau));
+        let kept: Vector<3> = std::array::from_fn(|i| if held >> i & 1 == 1 { tau[i] } else { 0.0 });
+        prop_assert!(p == kept && (0..3).all(|i| p[i] + dual[i] == tau[i]), "{p:?} and {dual:?} of {tau:?}");
+        prop_assert!(cone.distance(&p) == 0.0 && cone.hat(&tau) == tau && dot(&p, &dual) == 0.0);
+        derivative_matches(cone, tau, k)?;
+    }
+
     /// Without rolling it is Coulomb's cone, with a bound for the rest that nothing reaches or that holds it at zero.
     #[test]
     fn rolling_contains_coulomb(mu in 0.0..3.0f64, tau in prop::array::uniform3(-5.0..5.0f64)) {

@@ -16,7 +16,7 @@
 //!
 //! Reference: Lemke 1965; Cottle, Pang & Stone 1992, section 4.4; Anitescu & Potra 1997. The tableau is dense: at most [`LIMIT`]
 //! unknowns, with as many pivots as they are and that many squared operations a pivot. It does not use the first guess. Friction
-//! in space, rolling and sticking are `Unsuited`.
+//! in space, rolling, sticking and bilateral constraints are `Unsuited`.
 
 mod tableau;
 

@@ -57,7 +57,8 @@ impl Mixing {
             steps.iter_mut().for_each(|step| step.resize(problem.len() * D, 0.0));
         }
         self.f.resize(problem.len() * D, 0.0);
-        self.active = problem.len() * D <= SMALL || problem.cones.iter().all(|&cone| cone == Cone::Signorini);
+        self.active = problem.len() * D <= SMALL
+            || problem.cones.iter().all(|&cone| matches!(cone, Cone::Signorini | Cone::Bilateral { .. }));
         (self.count, self.next, self.fresh) = (0, 0, true);
         self.gram = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
         self.along = [0.0; DEPTH];

@@ -9,7 +9,7 @@
 use super::newton::{Image, newton};
 use super::rolling::equilibrated;
 use super::sal::steps;
-use super::{LocalSolver, Visit, separated};
+use super::{LocalSolver, Visit, bilateral, separated};
 use crate::block::{Matrix, Vector};
 use crate::{Cone, Resolved};
 
@@ -27,6 +27,10 @@ impl LocalSolver for Eal {
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
         if let Cone::Rolling { mu, mu_r } = cone {
             let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.rolling(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        if let Cone::Bilateral { held } = cone {
+            let Visit { r, u, converged } = bilateral::cut(*w, held, *u, *r, |w, cone, u, r| self.newton(w, cone, u, r));
             return Visit { r, u, converged };
         }
         self.newton(w, cone, u, r)

@@ -17,7 +17,7 @@
 
 use super::rolling::{Set, equilibrated};
 use super::sliding::Sliding;
-use super::{Eal, Ebp, IMMOVABLE, LocalSolver, Visit, free, separated};
+use super::{Eal, Ebp, IMMOVABLE, LocalSolver, Visit, bilateral, free, separated};
 use crate::block::{Matrix, Vector, axpy, dot, mul, norm, row_sum_norm, solve, solve_definite, sub, tangent_norm};
 use crate::cone::{part, part_norms};
 use crate::{Cone, Parameter};
@@ -35,6 +35,10 @@ impl LocalSolver for Exact {
             && D > 1
         {
             return equilibrated(*w, [mu, mu_r], *u, *r, rolling);
+        }
+        if let Cone::Bilateral { held } = cone {
+            let Visit { r, u, converged } = bilateral::hold(*w, held, *u, *r);
+            return Visit { r, u, converged };
         }
         let q = free(w, u, r);
         if D > 1 && cone == Cone::Sticking {

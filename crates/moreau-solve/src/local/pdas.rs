@@ -19,7 +19,7 @@
 //! space where the tangential block is a multiple of the identity, as for balls; else sets and direction settle over the sweeps.
 
 use super::rolling::{Set, equilibrated};
-use super::{IMMOVABLE, LocalSolver, Visit, exact, free, moved, separated};
+use super::{IMMOVABLE, LocalSolver, Visit, bilateral, exact, free, moved, separated};
 use crate::block::{
     Matrix, Vector, axpy, dot, norm, row_sum_norm, solve_definite, sub, tangent_norm, tangent_row_sum_norm, velocity_after,
 };
@@ -40,6 +40,10 @@ impl LocalSolver for Pdas {
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
         if let Cone::Rolling { mu, mu_r } = cone {
             let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.rolling(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        if let Cone::Bilateral { held } = cone {
+            let Visit { r, u, converged } = bilateral::hold(*w, held, *u, *r);
             return Visit { r, u, converged };
         }
         if D > 1 && cone == Cone::Sticking {

@@ -10,7 +10,7 @@
 //! multiplies both, an absolute one replaces both.
 
 use super::rolling::equilibrated;
-use super::{IMMOVABLE, LocalSolver, Visit, moved, separated};
+use super::{IMMOVABLE, LocalSolver, Visit, bilateral, moved, separated};
 use crate::block::{Matrix, Vector, tangent_row_sum_norm};
 use crate::{Cone, Resolved};
 
@@ -42,6 +42,10 @@ impl LocalSolver for Sal {
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
         if let Cone::Rolling { mu, mu_r } = cone {
             let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.step(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        if let Cone::Bilateral { held } = cone {
+            let Visit { r, u, converged } = bilateral::cut(*w, held, *u, *r, |w, cone, u, r| self.step(w, cone, u, r));
             return Visit { r, u, converged };
         }
         self.step(w, cone, u, r)

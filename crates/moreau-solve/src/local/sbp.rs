@@ -11,7 +11,7 @@
 //! visit. Not to be used where W_nn varies much between contacts with one absolute ρ: some contacts crawl, others diverge.
 
 use super::rolling::equilibrated;
-use super::{IMMOVABLE, LocalSolver, Visit, moved, separated};
+use super::{IMMOVABLE, LocalSolver, Visit, bilateral, moved, separated};
 use crate::block::{Matrix, Vector, axpy, row_sum_norm};
 use crate::{Cone, Resolved};
 
@@ -29,6 +29,10 @@ impl LocalSolver for Sbp {
     fn visit<const D: usize>(&self, w: &Matrix<D>, cone: Cone, u: &Vector<D>, r: &Vector<D>) -> Visit<D> {
         if let Cone::Rolling { mu, mu_r } = cone {
             let Visit { r, u, converged } = equilibrated(*w, [mu, mu_r], *u, *r, |w, cone, u, r| self.step(w, cone, u, r));
+            return Visit { r, u, converged };
+        }
+        if let Cone::Bilateral { held } = cone {
+            let Visit { r, u, converged } = bilateral::cut(*w, held, *u, *r, |w, cone, u, r| self.step(w, cone, u, r));
             return Visit { r, u, converged };
         }
         self.step(w, cone, u, r)

@@ -78,6 +78,24 @@ proptest! {
     }
 
     #[test]
+    fn bilateral_all_agree(n in numbers(), q in prop::array::uniform3(-1.0..1.0f64), held in 0u8..8) {
+        agrees_with_exact::<1>(block(&n, 1.0), [q[0]], Cone::Bilateral { held: held % 2 })?;
+        agrees_with_exact::<2>(block(&n, 0.3), [q[0], q[1]], Cone::Bilateral { held: held % 4 })?;
+        agrees_with_exact::<3>(block(&n, 0.3), q, Cone::Bilateral { held })?;
+    }
+
+    /// What is held comes to rest, by the solution of the held rows alone; what is not held gets nothing.
+    #[test]
+    fn the_reference_solves_the_held_rows(n in numbers(), q in prop::array::uniform3(-1.0..1.0f64)) {
+        let w = block::<3>(&n, 0.5);
+        let Visit { r, u, converged } = Exact.visit(&w, Cone::Bilateral { held: 0b101 }, &q, &[0.0; 3]);
+        let det = w[0][0] * w[2][2] - w[0][2] * w[2][0];
+        let wanted = [(w[0][2] * q[2] - w[2][2] * q[0]) / det, 0.0, (w[2][0] * q[0] - w[0][0] * q[2]) / det];
+        prop_assert!(converged && norm(&crate::block::sub(&r, &wanted)) < 1e-9 * (1.0 + norm(&wanted)), "{r:?} is not {wanted:?}");
+        prop_assert!(u[0] == 0.0 && u[2] == 0.0 && (u[1] - q[1] - dot(&w[1], &r)).abs() < 1e-9 * (1.0 + norm(&wanted)));
+    }
+
+    #[test]
     fn the_reference_obeys_coulombs_law(n in numbers(), q in prop::array::uniform3(-1.0..1.0f64), mu in 0.0..3.0f64) {
         let w = block::<3>(&n, 1.0);
         let Visit { r, .. } = Exact.visit(&w, Cone::Coulomb(mu), &q, &[0.0; 3]);

@@ -68,6 +68,8 @@ fn laws_without_a_place_in_files_are_refused() {
     };
     let rolling = Cone::Rolling { mu: 0.5, mu_r: 0.1 };
     assert!(with(&[Cone::Sticking]).expect_err("no place").to_string().contains("contact 0 has Sticking"));
+    let bilateral = [Cone::Signorini, Cone::Bilateral { held: 3 }];
+    assert!(with(&bilateral).expect_err("no place").to_string().contains("contact 1 has Bilateral"));
     assert!(with(&[rolling, Cone::Coulomb(0.5)]).expect_err("mixed").to_string().contains("contact 1 has Coulomb"));
     assert_eq!(with(&[rolling, Cone::Signorini]).expect("both roll").mu_r, Some(vec![0.1, 0.0]));
     assert_eq!(with(&[Cone::Coulomb(0.5), Cone::Signorini]).expect("no rolling").mu, [0.5, 0.0]);

@@ -45,8 +45,9 @@ impl System {
         }
         let w = scales(problem);
         let greatest = w.iter().copied().fold(0.0, f64::max);
-        let frictionless = |c: usize| matches!(problem.cones[c], Cone::Signorini | Cone::Coulomb(0.0));
-        let weight = |k: usize| if !k.is_multiple_of(D) && frictionless(k / D) { 0.0 } else { w[k / D] / greatest };
+        let frictionless = |c: usize| problem.cones[c] == Cone::Coulomb(0.0);
+        let zero = |k: usize| !problem.cones[k / D].binds(k % D) || (!k.is_multiple_of(D) && frictionless(k / D));
+        let weight = |k: usize| if zero(k) { 0.0 } else { w[k / D] / greatest };
         let weights: Vec<f64> = (0..unknowns).map(|k| if greatest > 0.0 { weight(k) } else { 0.0 }).collect();
         let mut entries: Vec<_> = (0..unknowns).filter(|&k| weights[k] == 0.0).map(|k| Triplet::new(k, k, 1.0)).collect();
         for (c, d, block) in problem.operator.stored().blocks() {

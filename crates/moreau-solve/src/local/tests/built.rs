@@ -45,6 +45,10 @@ fn closed_pair<const D: usize>(
 
 /// A pair in the law: the case 0 is open, the others closed.
 fn pair<const D: usize>(cone: Cone, case: usize, n: &[f64]) -> (Vector<D>, Vector<D>) {
+    if let Cone::Bilateral { .. } = cone {
+        let only = |binds: bool| std::array::from_fn(|i| if cone.binds(i) == binds { n[i] } else { 0.0 });
+        return (only(false), only(true));
+    }
     let slides = [case & 1 == 1, case & 2 == 2];
     if case == 0 {
         let u = std::array::from_fn(|i| {
@@ -63,7 +67,7 @@ fn pair<const D: usize>(cone: Cone, case: usize, n: &[f64]) -> (Vector<D>, Vecto
         Cone::Rolling { mu, mu_r } => closed_pair([mu, mu_r], part::<D>, slides, n),
         Cone::Coulomb(mu) => closed_pair([mu, 0.0], |_| 0, slides, n),
         Cone::Signorini => closed_pair([0.0; 2], |_| 0, [true; 2], n),
-        Cone::Sticking => closed_pair([1.0; 2], |_| 0, [false; 2], n),
+        Cone::Sticking | Cone::Bilateral { .. } => closed_pair([1.0; 2], |_| 0, [false; 2], n),
     }
 }
 
@@ -102,6 +106,8 @@ proptest! {
             all_find::<2>(cone, case, 0.2, &n)?;
             all_find::<3>(cone, case, 0.2, &n)?;
         }
+        all_find::<3>(Cone::Bilateral { held: 1 + case as u8 }, case, 0.2, &n)?;
+        all_find::<5>(Cone::Bilateral { held: 0b10110 }, case, 0.2, &n)?;
         for mu in FRICTION {
             for mu_r in FRICTION {
                 all_find::<3>(Cone::Rolling { mu, mu_r }, case, 0.2, &n)?;

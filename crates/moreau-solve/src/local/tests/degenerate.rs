@@ -3,13 +3,15 @@
 use super::*;
 use proptest::test_runner::RngSeed;
 
-const CONES: [Cone; 6] = [
+const CONES: [Cone; 8] = [
     Cone::Signorini,
     Cone::Coulomb(0.0),
     Cone::Coulomb(0.3),
     Cone::Sticking,
     Cone::Rolling { mu: 0.3, mu_r: 0.1 },
     Cone::Rolling { mu: 0.0, mu_r: 0.0 },
+    Cone::Bilateral { held: 0b111 },
+    Cone::Bilateral { held: 0b010 },
 ];
 
 /// Visits the contact ten times with every method, from nothing and from some impulse.
@@ -105,6 +107,21 @@ fn a_singular_block_sticks() {
     }
 }
 
+/// Rows that say the same twice hold as one does; of rows that contradict each other a visit says that it did not end.
+#[test]
+fn redundant_bilateral_rows_hold() {
+    let (w, cone) = ([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 2.0]], Cone::Bilateral { held: 0b111 });
+    for &(method, row) in LOCAL_METHODS {
+        let (status, _, r) = one_contact(method, w, [0.3, 0.3, -1.0], cone);
+        assert_eq!(status, Status::Converged, "{}", row.name);
+        assert!((r[0] + r[1] + 0.3).abs() < 1e-9 && (r[2] - 0.5).abs() < 1e-9, "{}: {r:?}", row.name);
+    }
+    for method in [LocalMethod::Pdas, LocalMethod::Exact] {
+        let visit = one_visit(method, &w, cone, &[0.3, -0.3, -1.0], &[0.0; 3]);
+        assert!(!visit.converged && visit.r[0] == -visit.r[1], "{}: {visit:?}", method.name());
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
@@ -121,6 +138,8 @@ proptest! {
             prop_assert_eq!(status, Status::Converged, "{} held", row.name);
             let (status, _, _) = one_contact(method, w, q, Cone::Rolling { mu: 0.5, mu_r: 0.1 });
             prop_assert_eq!(status, Status::Converged, "{} rolling", row.name);
+            let (status, _, _) = one_contact(method, w, q, Cone::Bilateral { held: 0b111 });
+            prop_assert_eq!(status, Status::Converged, "{} bilateral", row.name);
         }
     }
 }
