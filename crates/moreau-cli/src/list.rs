@@ -3,6 +3,7 @@
 use crate::failure::{Failure, say};
 use crate::table::aligned;
 use clap::ValueEnum;
+use moreau::joints::JOINTS;
 use moreau::scene::Scene;
 use moreau::solve::global::GLOBAL_METHODS;
 use moreau::solve::law::LAWS;
@@ -23,6 +24,8 @@ enum What {
     Criteria,
     /// Shapes
     Shapes,
+    /// Joints
+    Joints,
     /// Outputs
     Outputs,
 }
@@ -46,6 +49,7 @@ pub(crate) fn list(args: &Args) -> Result<(), Failure> {
             let plane = shape::plane::SHAPES.iter().map(|it| named("2D", it));
             plane.chain(shape::solid::SHAPES.iter().map(|it| named("3D", it))).collect()
         }
+        What::Joints => JOINTS.iter().map(|(_, it)| row(it)).collect(),
         What::Outputs => OUTPUTS.iter().map(row).collect(),
     };
     say(&aligned(&rows))

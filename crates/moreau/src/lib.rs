@@ -5,6 +5,7 @@ pub mod compare;
 pub mod contacts;
 pub mod detect;
 pub mod io;
+pub mod joints;
 pub mod laws;
 pub mod observe;
 pub mod run;

@@ -31,6 +31,7 @@ mod error;
 mod estimate;
 mod explain;
 mod generate;
+mod joints;
 mod lattice;
 mod packing;
 mod path;
@@ -44,6 +45,7 @@ mod values;
 pub use error::{LineColumn, Place, SceneError};
 pub use estimate::Estimate;
 pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Range};
+pub use joints::{JointKindSpec, JointSpec};
 pub use spec::{
     BodySpec, Container, Face, Material, MotionKind, Output, OutputKind, PairLaw, PartSpec, ShapeSpec, Solver, StartSpec, Time,
 };
@@ -95,6 +97,9 @@ pub struct Scene {
     /// Generators of many balls or disks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub generate: Vec<Generate>,
+    /// Joints between bodies, or between a body and the world.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<JointSpec>,
     /// What a run writes.
     #[serde(default)]
     pub output: Output,

@@ -1,9 +1,11 @@
 //! One step of the Moreau-Jean scheme, stage by stage.
 
+mod closing;
 mod correct;
 mod failed;
 mod forces;
 mod integrate;
+mod joints;
 mod localise;
 mod moreau_jean;
 mod record;
@@ -11,6 +13,7 @@ mod system;
 mod workspace;
 
 pub use failed::{FAILED_KEPT, FailedSolve};
+pub use joints::Reaction;
 pub use moreau_jean::step;
 pub(crate) use moreau_jean::step_in;
 pub use record::{Energy, Seconds, StepRecord};

@@ -1,6 +1,7 @@
 //! The world: the truth that a step advances.
 
 use crate::bodies::Bodies;
+use crate::joints::Joint;
 use crate::laws::Laws;
 use crate::space::Space;
 use moreau_solve::Settings;
@@ -57,6 +58,8 @@ pub struct World<S: Space<D, N>, const D: usize, const N: usize> {
     pub bodies: Bodies<S, D, N>,
     /// The laws by pair of materials.
     pub laws: Laws,
+    /// What holds bodies to each other or to the world.
+    pub joints: Vec<Joint<D>>,
     /// Gravity, m/s².
     pub gravity: [f64; D],
     /// How it is advanced.

@@ -53,7 +53,7 @@ fn cluster<S: Space<D, N>, const D: usize, const N: usize>(
     let solver = Settings { local, criterion: Criterion::Scaled, tolerance: 1e-11, max_sweeps: 100_000, ..Settings::default() };
     let settings =
         StepSettings { h: 1e-3, theta: 0.5, max_penetration: None, start: Start::Cold, on_failure: OnFailure::Stop, solver };
-    World { bodies, laws: Laws::new(1, law), gravity: [0.0; D], settings, time: 0.0, steps: 0 }
+    World { bodies, laws: Laws::new(1, law), joints: Vec::new(), gravity: [0.0; D], settings, time: 0.0, steps: 0 }
 }
 
 fn three<const D: usize>(v: &[f64; D]) -> [f64; 3] {

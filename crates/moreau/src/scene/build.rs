@@ -8,7 +8,7 @@ use super::packing::pack;
 use super::path::key_path;
 use super::random::Random;
 use super::spec::{BodySpec, Container, MotionKind};
-use super::{Scene, start};
+use super::{Scene, joints, start};
 use crate::bodies::{Bodies, Body, Motion};
 use crate::laws::Laws;
 use crate::space::Pose;
@@ -29,7 +29,8 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
     for (i, generate) in scene.generate.iter().enumerate() {
         generated::<S, D, N>(scene, i, generate, &mut bodies)?;
     }
-    start::check(scene, &bodies)?;
+    let joints = joints::joints(scene, &bodies);
+    start::check(scene, &bodies, &joints)?;
     let solver = &scene.solver;
     let settings = StepSettings {
         h: scene.time.step,
@@ -39,7 +40,7 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
         on_failure: solver.on_failure,
         solver: solver.settings(),
     };
-    Ok(World { bodies, laws: laws(scene), gravity: vector(&scene.gravity), settings, time: 0.0, steps: 0 })
+    Ok(World { bodies, laws: laws(scene), joints, gravity: vector(&scene.gravity), settings, time: 0.0, steps: 0 })
 }
 
 fn laws(scene: &Scene) -> Laws {

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod generate;
+mod joints;
 
 use super::error::{Fault, nearest};
 use super::path::{KeyPath, Segment, key_path};
@@ -34,6 +35,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
     output(&scene.output)?;
     bodies::check(scene)?;
     generate::check(scene)?;
+    joints::check(scene)?;
     count(scene)
 }
 

@@ -44,7 +44,7 @@ pub(super) fn vector<const D: usize>(numbers: &[f64]) -> [f64; D] {
 }
 
 /// The vector of length 1 along `v`.
-fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
+pub(super) fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
     v.map(|x| x / length)
 }

@@ -6,7 +6,7 @@
 //!
 //!   min ½ δ·M δ   with   gap + H_n* δ ≥ −½ ε R   at every contact,
 //!
-//! which is the problem of a step without friction with gaps for velocities; theory (56). Velocities stay as they are, so no kinetic energy
+//! which is the problem of a step without friction with gaps for velocities; theory (62). Velocities stay as they are, so no kinetic energy
 //! is made; what weights gain in height is booked as work.
 
 use super::integrate::moved;

@@ -39,8 +39,7 @@ pub(super) fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     let Bodies { pose, velocity, mass, load, motion, .. } = bodies;
     tasks::sum_mut(0, pose, velocity, &|i, pose, velocity| {
         let before = *velocity;
-        let mean = std::array::from_fn(|k| theta * after[i][k] + (1.0 - theta) * before[k]);
-        let end = moved::<S, D, N>(pose, &mean, h);
+        let end = arrival::<S, D, N>(pose, [&before, &after[i]], h, theta);
         *velocity = after[i];
         let mut taken = 0.0;
         if motion[i] == Motion::Free {
@@ -53,4 +52,35 @@ pub(super) fn advance<S: Space<D, N>, const D: usize, const N: usize>(
         *pose = end;
         taken
     })
+}
+
+/// q⁺ = q + h (θ v⁺ + (1 − θ) v) of one body.
+fn arrival<S: Space<D, N>, const D: usize, const N: usize>(
+    pose: &Pose<S::Rotation, D>,
+    [before, after]: [&[f64; N]; 2],
+    h: f64,
+    theta: f64,
+) -> Pose<S::Rotation, D> {
+    let mean = std::array::from_fn(|k| theta * after[k] + (1.0 - theta) * before[k]);
+    moved::<S, D, N>(pose, &mean, h)
+}
+
+/// Where the next step, as long as this one, will predict body `i` if it ends this one with the velocity v⁺ in `after`.
+pub(super) fn next_prediction<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    i: usize,
+    middle: &[Pose<S::Rotation, D>],
+    [free, after]: [&[[f64; N]]; 2],
+    h: f64,
+    theta: f64,
+) -> Pose<S::Rotation, D> {
+    let (pose, before) = (&bodies.pose[i], &bodies.velocity[i]);
+    let end = arrival::<S, D, N>(pose, [before, &after[i]], h, theta);
+    let mut velocity = after[i];
+    if bodies.is_free(i) {
+        let rotations = [pose.rotation, middle[i].rotation, end.rotation];
+        let impulse = bodies.load[i].map(|x| h * x);
+        velocity = S::settle(&bodies.mass[i], rotations, [before, &free[i], &after[i]], &impulse);
+    }
+    moved::<S, D, N>(&end, &velocity, h * (1.0 - theta))
 }

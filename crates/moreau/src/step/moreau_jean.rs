@@ -6,7 +6,7 @@ use super::localise::{Localiser, rounding};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
-use super::{Localised, StepError, Workspace, forces, integrate};
+use super::{Localised, StepError, Workspace, closing, forces, integrate};
 use crate::contacts::{Contact, ContactKey};
 use crate::shape::Shape;
 use crate::space::Space;
@@ -85,7 +85,7 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     if dumps {
         work.systems.get(kind).impulses(&mut work.failed.start);
     }
-    let report = work.systems.get(kind).solve(&world.settings.solver);
+    let report = closing::solve(world, work, kind, h);
     record.seconds.solve += clock.elapsed().as_secs_f64();
     record.sweeps += report.sweeps;
     if report.status != Status::Converged {
@@ -104,10 +104,15 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     }
     // 10 v⁺ = v_free + M⁻¹ H p
     work.systems.get(kind).answer(&mut work.contacts);
+    if !world.joints.is_empty() {
+        work.systems.full.answer_joints(&mut work.joints.blocks);
+        work.joints.react::<S>(&world.joints, &work.middle);
+    }
     work.after.clone_from(&work.free);
     work.systems.get(kind).deposit(&world.bodies, &work.middle, &mut work.after);
     note(record, work, report);
     work.ledger.book(&world.bodies, &world.gravity, [&work.free, &work.after], &work.contacts, (h, theta));
+    work.ledger.book_joints(&work.joints.blocks);
     // 11 q⁺ = q_m + h θ v⁺
     let taken = integrate::advance(&mut world.bodies, &work.middle, [&work.free, &work.after], h, theta);
     work.ledger.dissipate(taken);
@@ -136,6 +141,7 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
     let approach = world.laws.iter().any(|law| law.acts() == Acts::Approach);
     tasks::fill(&mut work.reach, bodies.len(), |i| reach(world, i, &work.free[i], h, approach));
     work.detector.detect::<S, N>(&bodies.shape, &work.middle, &work.reach, |i| !bodies.is_free(i), &mut work.found);
+    work.joints.part(&world.joints, &mut work.found);
 }
 
 /// How far from body `i` contacts matter. Closed ones: rounding. On approach: what it may travel in the step, doubled for what
@@ -179,16 +185,22 @@ fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
         (false, true) => Kind::Round,
         (true, true) => Kind::Central,
     };
+    let kind = if world.joints.is_empty() { kind } else { Kind::Full };
     let spins = (kind != Kind::Central).then(|| {
         work.spins.fill::<S, D, N>(&work.middle, [&bodies.velocity, &work.free]);
         &work.spins
     });
     let localiser = Localiser { world, middle: &work.middle, free: &work.free, spins, h };
     localiser.each(&work.found, &mut work.contacts);
+    work.joints.localise(world, &work.middle, &work.free, h);
     if world.settings.start == Start::Warm {
         recall(&work.previous, &mut work.contacts);
+        work.joints.recall();
     }
     work.systems.get(kind).fill(bodies, &work.middle, &work.contacts, &mut work.curve);
+    if kind == Kind::Full {
+        work.systems.full.join(bodies, &work.joints.blocks);
+    }
     kind
 }
 
@@ -211,6 +223,7 @@ fn recall<const D: usize>(previous: &[(ContactKey, [f64; D])], contacts: &mut [L
 fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>) {
     let contacts = &work.contacts;
     tasks::fill(&mut work.previous, contacts.len(), |c| (contacts[c].contact.key, contacts[c].impulse));
+    work.joints.remember();
 }
 
 /// Adds a solve to the record of its step; of several, the worst residual counts.
@@ -221,6 +234,7 @@ fn note<S: Space<D, N>, const D: usize, const N: usize>(record: &mut StepRecord,
     record.active = tasks::fold(0..contacts.len(), &active, &|a, b| a + b);
     let deepest = |part: Range<usize>| found[part].iter().map(|c| -c.gap).fold(0.0, f64::max);
     record.penetration = record.penetration.max(tasks::fold(0..found.len(), &deepest, &f64::max));
+    record.joint_error = record.joint_error.max(work.joints.left);
     if report.status != Status::Converged {
         record.status = report.status;
     }

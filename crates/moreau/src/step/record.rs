@@ -1,5 +1,6 @@
 //! What a step tells: solver, penetration, energy ledger, seconds.
 
+use super::joints::Block;
 use super::workspace::Localised;
 use crate::bodies::Bodies;
 use crate::space::Space;
@@ -16,7 +17,7 @@ pub struct Energy {
     pub potential: f64,
     /// Done by constant forces and torques, by driven bodies, and by corrections of positions.
     pub work: f64,
-    /// Lost in contacts, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round.
+    /// Lost in contacts and joints, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round.
     pub dissipated: f64,
     /// kinetic + potential − work + dissipated, less its value at the start: rounding, if all is well.
     pub balance_error: f64,
@@ -56,6 +57,9 @@ pub struct StepRecord {
     pub residual: Residual,
     /// Deepest overlap of two bodies at the predicted configuration, m; zero if none.
     pub penetration: f64,
+    /// The greatest error of position that a joint is left with at the next predicted configuration, m, angles times the arm of its bodies;
+    /// zero without joints.
+    pub joint_error: f64,
     /// Energies.
     pub energy: Energy,
     /// Time taken.
@@ -145,6 +149,15 @@ impl Ledger {
     /// Books what a correction of positions did to the potential energy.
     pub(super) fn lift(&mut self, energy: f64) {
         self.work += energy;
+    }
+
+    /// Books what joints do, as contacts do.
+    pub(super) fn book_joints<const D: usize, const N: usize>(&mut self, blocks: &[Block<D, N>]) {
+        for block in blocks {
+            let mean = std::array::from_fn(|i| 0.5 * (block.before[i] + block.after[i]));
+            self.work -= dot(&block.impulse, &block.driven);
+            self.dissipated -= dot(&block.impulse, &mean);
+        }
     }
 
     /// Books what the scheme takes beside.

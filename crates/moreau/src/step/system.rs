@@ -3,6 +3,7 @@
 //! A step without friction needs the normals alone (K = 1), and contacts of round bodies need no rows (`Balls`). The
 //! equations are the same; only less is stored and read.
 
+mod joints;
 mod operators;
 
 use super::failed::with_guesses;
@@ -35,7 +36,7 @@ impl<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, c
 /// Which coordinates a step needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Some contact has friction.
+    /// Some contact has friction, or there are joints.
     Full,
     /// None has: normals only.
     Normal,
@@ -47,7 +48,8 @@ pub(super) enum Kind {
 
 /// A system for each kind.
 pub(super) struct Systems<S: Space<D, N>, const D: usize, const N: usize> {
-    full: System<MatrixFree<D, N>, S, D, N, D>,
+    /// The one that has room for joints.
+    pub(super) full: System<MatrixFree<D, N>, S, D, N, D>,
     normal: System<MatrixFree<1, N>, S, D, N, 1>,
     round: System<Balls<D>, S, D, N, D>,
     central: System<Balls<1>, S, D, N, 1>,

@@ -2,6 +2,7 @@
 
 use super::correct::Correction;
 use super::failed::{Failed, FailedSolve};
+use super::joints::{Reaction, StepJoints};
 use super::localise::Spins;
 use super::record::Ledger;
 use super::system::Systems;
@@ -83,6 +84,7 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) spins: Spins,
     pub(super) contacts: Vec<Localised<D>>,
     pub(super) previous: Vec<(ContactKey, [f64; D])>,
+    pub(super) joints: StepJoints<D, N>,
     pub(super) curve: Curve,
     pub(super) systems: Systems<S, D, N>,
     pub(super) correction: Correction<D, N>,
@@ -104,6 +106,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             spins: Spins::default(),
             contacts: Vec::new(),
             previous: Vec::new(),
+            joints: StepJoints::default(),
             curve: Curve::default(),
             systems: Systems::default(),
             correction: Correction::default(),
@@ -119,6 +122,11 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Workspace<S, D, N> {
     /// The contacts of the last step, sorted by key.
     pub fn contacts(&self) -> &[Localised<D>] {
         &self.contacts
+    }
+
+    /// What each joint of the world did in the last step, in their order.
+    pub fn reactions(&self) -> &[Reaction<D>] {
+        &self.joints.reactions
     }
 
     /// The problem of the last step, if its solve failed under [`OnFailure::Dump`](crate::world::OnFailure::Dump) and is among the

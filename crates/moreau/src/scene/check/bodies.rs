@@ -87,7 +87,7 @@ fn orientation_of(scene: &Scene, orientation: &Orientation, path: &KeyPath) -> R
 }
 
 /// A direction of any length but zero, neither so long nor so short that its square is not a number.
-fn nonzero(path: &KeyPath, direction: &[f64]) -> Result<(), Fault> {
+pub(super) fn nonzero(path: &KeyPath, direction: &[f64]) -> Result<(), Fault> {
     let square: f64 = direction.iter().map(|x| x * x).sum();
     if square.is_normal() {
         return Ok(());
