@@ -51,4 +51,23 @@ fn balls_at_rest_take_steps_without_allocations() {
         // Now and then a heap that still creeps has a contact more than ever before.
         assert!(allocations <= 500 + 10, "{law}: {allocations} allocations in 500 steps");
     }
+    joints_take_steps_without_allocations();
+}
+
+/// A mechanism with joints and contacts: a list of stages for each of a step's solves, of which there are at most five. (It shares the counter, so
+/// it must not run beside the other.)
+fn joints_take_steps_without_allocations() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/slider-crank.toml");
+    let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let AnyWorld::Plane(mut world) = scene.build(u64::MAX).unwrap() else { panic!("a scene of the plane") };
+    let mut work = Workspace::default();
+    let mut allocations = |steps: usize| {
+        let before = COUNT.load(Ordering::Relaxed);
+        let converged = (0..steps).all(|_| step(&mut world, &mut work).unwrap().converged());
+        assert!(converged, "every step of the scene converges");
+        COUNT.load(Ordering::Relaxed) - before
+    };
+    allocations(2500);
+    let allocations = allocations(500);
+    assert!(allocations <= 5 * 500, "{allocations} allocations in 500 steps with joints");
 }
