@@ -179,10 +179,16 @@ fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
     let all = |holds: &(dyn Fn(&Contact<D>) -> bool + Sync)| {
         tasks::fold(0..found.len(), &|part: Range<usize>| found[part].iter().all(holds), &|a, b| a && b)
     };
+    // A driven body that turns moves others along its normals, unless it is round.
+    let turning = |body: u32| {
+        let (i, spins) = (body as usize, |v: &[f64; N]| v[D..] != [0.0; N][D..]);
+        !bodies.is_free(i) && !bodies.shape[i].is_round() && (spins(&bodies.velocity[i]) || spins(&work.free[i]))
+    };
     let kind = match (all(&|c| law(c).is_frictionless()), all(&|c| round(c.key.a) && round(c.key.b))) {
         (false, false) => Kind::Full,
         (true, false) => Kind::Normal,
         (false, true) => Kind::Round,
+        (true, true) if !all(&|c| !turning(c.key.a) && !turning(c.key.b)) => Kind::Normal,
         (true, true) => Kind::Central,
     };
     let kind = if world.joints.is_empty() { kind } else { Kind::Full };
