@@ -43,11 +43,13 @@ fn rows<S: Space<D, N>, const D: usize, const N: usize>(scene: &Scene, world: &W
         }
     }
     let (settings, solver) = (&world.settings, &world.settings.solver);
+    let (present, places) = (bodies.present(), bodies.len());
+    let to_come = if places > present { format!(", up to {} to come", places - present) } else { String::new() };
     let list = |v: &[f64]| v.iter().map(|x| format!("{x:.4}")).collect::<Vec<_>>().join(", ");
     let row = |name: &str, value: String| vec![name.to_owned(), value];
     vec![
         row("dimension", format!("{D}D")),
-        row("bodies", format!("{} ({free} free, {} fixed or driven)", bodies.len(), bodies.len() - free)),
+        row("bodies", format!("{present} ({free} free, {} fixed or driven){to_come}", present - free)),
         row("mass", format!("{mass:.6e} kg")),
         row("box", format!("[{}] to [{}] m", list(&low), list(&high))),
         row(

@@ -116,7 +116,6 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
     let stop = progress::stop_on_ctrl_c()?;
     let mut observers = observers(scene, folder).map_err(Failure::file)?;
     let settings = world.settings;
-    let bodies = world.bodies.len();
     let bar = progress::bar(scene.time.steps, args.quiet);
     let pool = scene::pool(args.threads.map_or_else(scene::cores, usize::from))?;
     let result = pool.install(|| {
@@ -127,6 +126,7 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
         })
     });
     bar.finish_and_clear();
+    let bodies = world.bodies.present();
     // What could not be written ends the run, but not without its summary.
     let (outcome, unwritten) = match result {
         Ok(outcome) => (outcome, None),
@@ -137,6 +137,8 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
     };
     let threads = pool.current_num_threads();
     let mut summary = outcome.summary.to_json(bodies, &settings, threads, outcome.seconds_total, outcome.seconds_output);
+    summary["bodies_inserted"] = world.schedule.inserted().into();
+    summary["bodies_removed"] = world.schedule.removed().into();
     summary["memory_bytes"] = scene::memory_in_use().into();
     let written = write_whole(&folder.join("summary.json"), &format!("{summary:#}\n"));
     if let Some(error) = unwritten {

@@ -29,6 +29,7 @@ mod check;
 mod dimension;
 mod error;
 mod estimate;
+mod events;
 mod explain;
 mod generate;
 mod joints;
@@ -36,7 +37,6 @@ mod lattice;
 mod packing;
 mod path;
 mod radii;
-mod random;
 mod source;
 mod spec;
 mod start;
@@ -44,6 +44,7 @@ mod values;
 
 pub use error::{LineColumn, Place, SceneError};
 pub use estimate::Estimate;
+pub use events::{DriveSpec, SinkSpec, SourceSpec};
 pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Range};
 pub use joints::{JointKindSpec, JointSpec};
 pub use spec::{
@@ -100,6 +101,12 @@ pub struct Scene {
     /// Joints between bodies, or between a body and the world.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<JointSpec>,
+    /// Where balls or disks come into the scene while it runs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sources: Vec<SourceSpec>,
+    /// Where free bodies leave it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sinks: Vec<SinkSpec>,
     /// What a run writes.
     #[serde(default)]
     pub output: Output,
@@ -183,7 +190,8 @@ impl Scene {
     /// Makes the world. A scene that needs more than `available_memory` bytes is refused before anything is allocated; `u64::MAX`
     /// is no limit.
     ///
-    /// Bodies come in the order of the scene: `bodies`, walls of `containers`, then `generate`.
+    /// Bodies come in the order of the scene: `bodies`, walls of `containers`, `generate`, then those that `sources` will bring, which are
+    /// absent until then.
     ///
     /// # Errors
     /// Where the memory does not suffice, a generator cannot place its bodies, shapes cannot touch each other, or bodies overlap.

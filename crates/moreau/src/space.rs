@@ -50,6 +50,9 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
     /// The orientation after turning for the time `h` with the spin of `velocity` (Cayley map, normalised).
     fn turn(rotation: Self::Rotation, velocity: &[f64; N], h: f64) -> Self::Rotation;
 
+    /// The orientation after a turn by `angle` (rad) about `axis` (world, of length 1); the plane turns about its third axis.
+    fn turned(rotation: Self::Rotation, axis: [f64; 3], angle: f64) -> Self::Rotation;
+
     /// One row of H* (eq. 15): the generalised direction whose product with a body's velocity is the velocity, along `direction`
     /// (world), of the body's point at `arm` (world, from the centre of mass).
     fn row(rotation: Self::Rotation, arm: [f64; D], direction: [f64; D]) -> [f64; N];

@@ -1,6 +1,7 @@
 //! The world: the truth that a step advances.
 
 use crate::bodies::Bodies;
+use crate::events::Schedule;
 use crate::joints::Joint;
 use crate::laws::Laws;
 use crate::space::Space;
@@ -62,10 +63,19 @@ pub struct World<S: Space<D, N>, const D: usize, const N: usize> {
     pub joints: Vec<Joint<D>>,
     /// Gravity, m/s².
     pub gravity: [f64; D],
+    /// What happens to bodies at given times, and what drives them.
+    pub schedule: Schedule<S, D, N>,
     /// How it is advanced.
     pub settings: StepSettings,
     /// Time, s.
     pub time: f64,
     /// Steps done.
     pub steps: u64,
+}
+
+impl<S: Space<D, N>, const D: usize, const N: usize> World<S, D, N> {
+    /// Lets the events happen that are due; returns the energy of free bodies that they bring, J.
+    pub(crate) fn act(&mut self) -> f64 {
+        self.schedule.act(&mut self.bodies, &self.gravity, self.time, self.settings.h)
+    }
 }

@@ -1,6 +1,7 @@
 //! Momentum and energy in random scenes, in both dimensions, for every law and every local solver.
 
 use moreau::bodies::{Bodies, Body, Motion};
+use moreau::events::Schedule;
 use moreau::laws::Laws;
 use moreau::shape::plane::Disk;
 use moreau::shape::solid::Ball;
@@ -53,7 +54,8 @@ fn cluster<S: Space<D, N>, const D: usize, const N: usize>(
     let solver = Settings { local, criterion: Criterion::Scaled, tolerance: 1e-11, max_sweeps: 100_000, ..Settings::default() };
     let settings =
         StepSettings { h: 1e-3, theta: 0.5, max_penetration: None, start: Start::Cold, on_failure: OnFailure::Stop, solver };
-    World { bodies, laws: Laws::new(1, law), joints: Vec::new(), gravity: [0.0; D], settings, time: 0.0, steps: 0 }
+    let (laws, gravity, schedule) = (Laws::new(1, law), [0.0; D], Schedule::default());
+    World { bodies, laws, joints: Vec::new(), gravity, schedule, settings, time: 0.0, steps: 0 }
 }
 
 fn three<const D: usize>(v: &[f64; D]) -> [f64; 3] {

@@ -67,12 +67,14 @@ pub(super) struct Hold<const D: usize> {
 
 impl<const D: usize> Hold<D> {
     /// Whether a body's ball lies within. A body without a ball must have been one, and is left to its wall. Where squares would
-    /// lose their digits the answer is no, and so it is for a body that is or was nowhere.
+    /// lose their digits the answer is no, and so it is for a body that is nowhere or was; only one that stays nowhere is held.
     #[inline]
     pub(super) fn holds(&self, bound: &Bound<D>, driven: bool) -> bool {
         let room = self.radius - bound.radius;
         let inside = square_between(self.centre, bound.centre) <= room * room && room > 1e-140 && room < 1e140;
-        (inside || (self.radius == f64::INFINITY && bound.radius == f64::INFINITY)) && self.driven == driven
+        let unbounded = self.radius == f64::INFINITY && bound.radius == f64::INFINITY;
+        let nowhere = self.radius.is_nan() && bound.is_nowhere();
+        (inside || unbounded || nowhere) && self.driven == driven
     }
 }
 

@@ -82,7 +82,7 @@ impl Summary {
         self.solve
     }
 
-    /// The object of `summary.json`; `total` and `output` are seconds of the whole run and of its
+    /// The object of `summary.json`; `bodies` is how many are there at the end, `total` and `output` are seconds of the whole run and of its
     /// waiting for files.
     pub fn to_json(&self, bodies: usize, settings: &StepSettings, threads: usize, total: f64, output: f64) -> Value {
         let (energy, solver) = (&self.last.energy, &settings.solver);

@@ -2,15 +2,15 @@
 
 use super::dimension::{SceneSpace, vector, velocity_in_body};
 use super::error::Fault;
-use super::generate::{Arrangement, Generate};
+use super::generate::{Arrangement, Generate, Radii};
 use super::lattice::Sites;
 use super::packing::pack;
 use super::path::key_path;
-use super::random::Random;
 use super::spec::{BodySpec, Container, MotionKind};
-use super::{Scene, joints, start};
+use super::{Scene, events, joints, start};
 use crate::bodies::{Bodies, Body, Motion};
 use crate::laws::Laws;
+use crate::random::Random;
 use crate::space::Pose;
 use crate::space::curve::Curve;
 use crate::world::{StepSettings, World};
@@ -29,6 +29,7 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
     for (i, generate) in scene.generate.iter().enumerate() {
         generated::<S, D, N>(scene, i, generate, &mut bodies)?;
     }
+    let schedule = events::schedule(scene, &mut bodies)?;
     let joints = joints::joints(scene, &bodies);
     start::check(scene, &bodies, &joints)?;
     let solver = &scene.solver;
@@ -40,38 +41,40 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
         on_failure: solver.on_failure,
         solver: solver.settings(),
     };
-    Ok(World { bodies, laws: laws(scene), joints, gravity: vector(&scene.gravity), settings, time: 0.0, steps: 0 })
+    let (laws, gravity) = (laws(scene), vector(&scene.gravity));
+    let mut world = World { bodies, laws, joints, gravity, schedule, settings, time: 0.0, steps: 0 };
+    // What begins at the start is seen at the start.
+    world.act();
+    Ok(world)
 }
 
 fn laws(scene: &Scene) -> Laws {
     let mut laws = Laws::new(scene.materials.len(), scene.default_law);
     for pair in &scene.laws {
         if let [a, b] = pair.between.as_slice() {
-            laws.set(material(scene, a), material(scene, b), pair.law);
+            laws.set(material(scene, a).0, material(scene, b).0, pair.law);
         }
     }
     laws
 }
 
-/// Materials are numbered in the order of their names.
-fn material(scene: &Scene, name: &str) -> u16 {
-    scene.materials.keys().position(|known| known == name).unwrap_or(0) as u16
-}
-
-fn density(scene: &Scene, name: &str) -> f64 {
-    scene.materials.get(name).map_or(0.0, |material| material.density)
+/// The number of a material and its density. Materials are numbered in the order of their names.
+pub(super) fn material(scene: &Scene, name: &str) -> (u16, f64) {
+    let number = scene.materials.keys().position(|known| known == name).unwrap_or(0) as u16;
+    (number, scene.materials.get(name).map_or(0.0, |material| material.density))
 }
 
 fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, spec: &BodySpec) -> Option<Body<S, D, N>> {
     let rotation = S::rotation(spec.orientation.as_ref());
     let (shape, pose) = S::place(&spec.shape, vector(&spec.position), rotation)?;
     let velocity = S::join(vector(&spec.velocity), spec.spin.as_ref());
+    let (material, density) = material(scene, &spec.material);
     Some(Body {
         shape,
         velocity: velocity_in_body::<S, D, N>(pose.rotation, &velocity),
         pose,
-        density: density(scene, &spec.material),
-        material: material(scene, &spec.material),
+        density,
+        material,
         motion: if spec.motion() == MotionKind::Free { Motion::Free } else { Motion::Driven },
         load: S::join(vector(&spec.force), spec.torque.as_ref()),
     })
@@ -79,21 +82,14 @@ fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, 
 
 fn walls<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, spec: &Container, bodies: &mut Bodies<S, D, N>) {
     let (min, max): ([f64; D], [f64; D]) = (vector(&spec.min), vector(&spec.max));
+    let (material, density) = material(scene, &spec.material);
     for (axis, high, _) in spec.walls() {
         let mut position = std::array::from_fn(|k| 0.5 * (min[k] + max[k]));
         position[axis] = if high { max[axis] } else { min[axis] };
         let mut normal = [0.0; D];
         normal[axis] = if high { -1.0 } else { 1.0 };
         let (shape, pose) = S::wall(position, normal);
-        bodies.push(Body {
-            shape,
-            pose,
-            velocity: [0.0; N],
-            density: density(scene, &spec.material),
-            material: material(scene, &spec.material),
-            motion: Motion::Driven,
-            load: [0.0; N],
-        });
+        bodies.push(Body { shape, pose, velocity: [0.0; N], density, material, motion: Motion::Driven, load: [0.0; N] });
     }
 }
 
@@ -105,12 +101,9 @@ fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
 ) -> Result<(), Fault> {
     let [mut sizes, mut places, mut speeds] = Random::three(spec.seed.unwrap_or(index as u64));
     let count = usize::try_from(spec.number(D)).unwrap_or(usize::MAX);
-    let radii = spec.radii.draw(count, D, &mut sizes).ok_or_else(|| {
-        let message = "next to nothing of the distribution lies between min and max";
-        Fault::new(key_path!["generate", index, "radii"], message, "expected an interval around the median")
-    })?;
+    let radii = spec.radii.draw(count, D, &mut sizes).ok_or_else(|| Radii::empty(key_path!["generate", index, "radii"]))?;
     let centres = centres::<D>(index, spec, &radii, &mut places)?;
-    let (material, density) = (material(scene, &spec.material), density(scene, &spec.material));
+    let (material, density) = material(scene, &spec.material);
     let common = S::join(vector(&spec.velocity), spec.spin.as_ref());
     // Numbered along a curve through space: neighbours are then near each other in memory, too.
     let poses: Vec<_> = centres.into_iter().map(|position| Pose { position, rotation: S::IDENTITY }).collect();

@@ -1,6 +1,7 @@
 //! What a scene must keep to beyond its form: ranges, names, and numbers of components.
 
 mod bodies;
+mod events;
 mod generate;
 mod joints;
 
@@ -36,6 +37,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
     bodies::check(scene)?;
     generate::check(scene)?;
     joints::check(scene)?;
+    events::check(scene)?;
     count(scene)
 }
 
@@ -107,8 +109,16 @@ fn count(scene: &Scene) -> Result<(), Fault> {
             return Err(Fault::new(key_path!["generate", i, place], message, "expected fewer bodies"));
         }
     }
-    if scene.bodies.is_empty() && scene.generate.is_empty() {
-        let hint = "add [[bodies]] or [[generate]]; a container alone has nothing to hold";
+    for (i, source) in scene.sources.iter().enumerate() {
+        let number = source.number(&scene.time);
+        total = total.saturating_add(number);
+        if total > MOST_BODIES {
+            let message = format!("{number} bodies here make more than the {MOST_BODIES} that can be numbered");
+            return Err(Fault::new(key_path!["sources", i], message, "expected a smaller rate, or a count"));
+        }
+    }
+    if scene.bodies.is_empty() && scene.generate.is_empty() && scene.sources.is_empty() {
+        let hint = "add [[bodies]], [[generate]] or [[sources]]; a container alone has nothing to hold";
         return Err(Fault::new(KeyPath::default(), "the scene has no bodies", hint));
     }
     Ok(())

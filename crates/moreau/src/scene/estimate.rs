@@ -14,7 +14,7 @@ const CONTACT_BYTES: u64 = 700;
 /// What a scene holds and needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// How many bodies there are, with those that are fixed or driven and the walls of containers.
+    /// How many bodies there are, with those that are fixed or driven, the walls of containers, and those that sources can bring.
     pub bodies: u64,
     /// How many of them move freely.
     pub free_bodies: u64,
@@ -38,8 +38,9 @@ pub(super) fn estimate(scene: &Scene) -> Estimate {
         generated_mass += number as f64 * density * unit_ball * generate.radii.mean_power(dimension);
     }
     let free = scene.bodies.iter().filter(|body| body.motion() == MotionKind::Free).count() as u64;
-    let bodies = generated.saturating_add(scene.explicit_bodies() as u64);
-    let free_bodies = generated.saturating_add(free);
+    let to_come = scene.sources.iter().map(|source| source.number(&scene.time)).fold(0, u64::saturating_add);
+    let bodies = generated.saturating_add(to_come).saturating_add(scene.explicit_bodies() as u64);
+    let free_bodies = generated.saturating_add(to_come).saturating_add(free);
     let contacts = free_bodies.saturating_mul(dimension as u64);
     let memory_bytes = bodies.saturating_mul(BODY_BYTES).saturating_add(contacts.saturating_mul(CONTACT_BYTES));
     Estimate { bodies, free_bodies, contacts, generated_mass, memory_bytes }
@@ -54,7 +55,10 @@ pub(super) fn check_memory(scene: &Scene, available: u64) -> Result<(), Fault> {
     let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);
     let dimension = scene.dimension.number();
     let largest = (0..scene.generate.len()).max_by_key(|&i| scene.generate[i].number(dimension));
+    let most = (0..scene.sources.len()).max_by_key(|&i| scene.sources[i].number(&scene.time));
+    let flows = |i: usize| scene.sources[i].number(&scene.time) > largest.map_or(0, |i| scene.generate[i].number(dimension));
     let path = match largest {
+        _ if most.is_some_and(flows) => key_path!["sources", most.unwrap_or_default()],
         Some(i) if scene.generate[i].count.is_some() => key_path!["generate", i, "count"],
         Some(i) => key_path!["generate", i, "lattice"],
         None => key_path!["bodies"],

@@ -1,6 +1,6 @@
 //! Random sequential insertion: balls one after the other at random places where they overlap none.
 
-use super::random::{Random, square};
+use crate::random::{Random, square};
 
 /// A uniform grid over the region: per cell the last ball put there, per ball the one before it in its cell.
 struct Grid<const D: usize> {

@@ -1,8 +1,10 @@
 //! Distributions of radii: the most extreme radii, the mean mass, and draws.
 
+use super::error::Fault;
 use super::generate::{LogNormal, Radii, Range};
-use super::random::Random;
+use super::path::KeyPath;
 use super::values::Numbers;
+use crate::random::Random;
 
 /// How often a radius of a clipped distribution is drawn again before the distribution is given up.
 const REDRAWS: usize = 10_000;
@@ -48,6 +50,12 @@ impl Radii {
         let mut radii: Vec<f64> = (0..count).map(|k| quantile.at((k as f64 + random.unit()) / count as f64)).collect();
         random.shuffle(&mut radii);
         Some(radii)
+    }
+
+    /// The fault of a distribution that [`Radii::draw`] gives up.
+    pub(super) fn empty(path: KeyPath) -> Fault {
+        let message = "next to nothing of the distribution lies between min and max";
+        Fault::new(path, message, "expected an interval around the median")
     }
 
     fn quantiles(&self, dimension: usize) -> Quantiles {

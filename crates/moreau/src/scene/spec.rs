@@ -2,6 +2,7 @@
 //!
 //! Everything is in SI units. The comments here are the reference of the format: they become the descriptions of the JSON schema.
 
+use super::events::DriveSpec;
 use super::values::{Angular, Numbers, Orientation};
 use crate::world::{OnFailure, Start};
 use moreau_solve::{Criterion, GlobalMethod, Kernels, Law, LocalMethod, Order, Parameter, Settings};
@@ -162,13 +163,19 @@ pub struct BodySpec {
     pub velocity: Vec<f64>,
     /// Spin, rad/s; default zero.
     pub spin: Option<Angular>,
-    /// How it moves; default free, of half-spaces fixed.
+    /// How it moves; default as its first drive says if that begins at 0, else free, of half-spaces fixed.
     pub motion: Option<MotionKind>,
     /// A constant force on the centre of mass, N; default zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub force: Vec<f64>,
     /// A constant torque, N·m; default zero.
     pub torque: Option<Angular>,
+    /// What it does from given times on, in their order: motions and forces as functions of time, being freed or held. Before the first it
+    /// moves as `motion` says.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drive: Vec<DriveSpec>,
+    /// When it is taken out of the scene, s: at the first beginning of a step at or after this time; default never.
+    pub removed_at: Option<f64>,
 }
 
 /// The form of a body.
@@ -362,8 +369,19 @@ impl Default for StartSpec {
 }
 
 impl BodySpec {
-    /// How it moves: as given, else freely, and not at all where it goes on without end.
+    /// How it moves at the start: as given, or as its first drive says, else freely, and not at all where it goes on without end.
     pub fn motion(&self) -> MotionKind {
-        self.motion.unwrap_or(if self.shape.is_unbounded() { MotionKind::Fixed } else { MotionKind::Free })
+        let otherwise = if self.shape.is_unbounded() { MotionKind::Fixed } else { MotionKind::Free };
+        self.motion.or(self.first_drive().map(DriveSpec::motion)).unwrap_or(otherwise)
+    }
+
+    /// Its first drive, if it has it from the start.
+    pub(super) fn first_drive(&self) -> Option<&DriveSpec> {
+        self.drive.first().filter(|drive| drive.from <= 0.0)
+    }
+
+    /// Whether it is free at some time.
+    pub(super) fn is_ever_free(&self) -> bool {
+        self.motion() == MotionKind::Free || self.drive.iter().any(|drive| drive.motion() == MotionKind::Free)
     }
 }

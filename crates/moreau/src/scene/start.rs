@@ -1,9 +1,9 @@
 //! Checks of the bodies once they are made: masses, pairs of shapes that can touch, and overlaps.
 
-use super::Scene;
 use super::dimension::SceneSpace;
 use super::error::Fault;
 use super::path::{KeyPath, key_path};
+use super::{BodySpec, Scene};
 use crate::bodies::Bodies;
 use crate::contacts::Contact;
 use crate::detect::Detector;
@@ -20,6 +20,8 @@ pub(super) enum Origin {
     Wall(usize, &'static str),
     /// The generator of this index, and the how-manieth of its bodies.
     Generated(usize, usize),
+    /// The source of this index, and the how-manieth of its bodies.
+    Source(usize, usize),
 }
 
 impl Origin {
@@ -43,6 +45,13 @@ impl Origin {
             }
             left -= count;
         }
+        for (i, source) in scene.sources.iter().enumerate() {
+            let count = usize::try_from(source.number(&scene.time)).unwrap_or(usize::MAX);
+            if left < count {
+                return Some(Origin::Source(i, left));
+            }
+            left -= count;
+        }
         None
     }
 
@@ -51,6 +60,7 @@ impl Origin {
             Origin::Body(i) => key_path!["bodies", i],
             Origin::Wall(i, _) => key_path!["containers", i],
             Origin::Generated(i, _) => key_path!["generate", i],
+            Origin::Source(i, _) => key_path!["sources", i],
         }
     }
 
@@ -63,6 +73,7 @@ impl Origin {
             },
             Origin::Wall(i, face) => format!("wall {face} of containers[{i}]"),
             Origin::Generated(i, k) => format!("number {k} of generate[{i}]"),
+            Origin::Source(i, k) => format!("number {k} of sources[{i}]"),
         }
     }
 }
@@ -91,12 +102,16 @@ pub(super) fn check<S: SceneSpace<D, N>, const D: usize, const N: usize>(
     overlaps(scene, bodies, joints)
 }
 
+/// Whether a body is free at some time: those of sources will be, and some that are held are freed.
+fn is_ever_free<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, bodies: &Bodies<S, D, N>, i: usize) -> bool {
+    bodies.is_free(i) || !bodies.is_present(i) || scene.bodies.get(i).is_some_and(BodySpec::is_ever_free)
+}
+
 /// Positive numbers can still have a product that is too small or too large for a number.
 fn masses<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, bodies: &Bodies<S, D, N>) -> Result<(), Fault> {
-    let free = |i: &usize| bodies.is_free(*i);
-    let bad = (0..bodies.len())
-        .filter(free)
-        .find(|&i| bodies.mass[i].iter().chain(&bodies.inverse_mass[i]).any(|x| !(x.is_finite() && *x > 0.0)));
+    let free = |i: &usize| is_ever_free(scene, bodies, *i);
+    let weighs = |m: &f64| [*m, 1.0 / m].iter().all(|x| x.is_finite() && *x > 0.0);
+    let bad = (0..bodies.len()).filter(free).find(|&i| !bodies.mass[i].iter().all(weighs));
     bad.map_or(Ok(()), |i| {
         let message =
             format!("{} has the mass {} kg and no finite inverse of mass and inertia", label(scene, i), bodies.mass[i][0]);
@@ -109,7 +124,7 @@ fn pairs<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, bod
     // The first two bodies of each kind, apart by whether they are free.
     let mut kinds: BTreeMap<(&str, bool), Vec<usize>> = BTreeMap::new();
     for (i, shape) in bodies.shape.iter().enumerate() {
-        let seen = kinds.entry((shape.name(), bodies.is_free(i))).or_default();
+        let seen = kinds.entry((shape.name(), is_ever_free(scene, bodies, i))).or_default();
         if seen.len() < 2 {
             seen.push(i);
         }

@@ -35,6 +35,11 @@ impl Space<2, 3> for Plane {
         [c / length, s / length]
     }
 
+    fn turned([c, s]: [f64; 2], _: [f64; 3], angle: f64) -> [f64; 2] {
+        let (sine, cosine) = angle.sin_cos();
+        [c * cosine - s * sine, s * cosine + c * sine]
+    }
+
     #[inline]
     fn row(_: [f64; 2], [x, y]: [f64; 2], [dx, dy]: [f64; 2]) -> [f64; 3] {
         [dx, dy, x * dy - y * dx]

@@ -40,6 +40,10 @@ impl Space<3, 6> for Solid {
         (rotation * DQuat::from_xyzw(half.x, half.y, half.z, 1.0)).normalize()
     }
 
+    fn turned(rotation: DQuat, axis: [f64; 3], angle: f64) -> DQuat {
+        (DQuat::from_axis_angle(axis.into(), angle) * rotation).normalize()
+    }
+
     #[inline]
     fn row(rotation: DQuat, arm: [f64; 3], direction: [f64; 3]) -> [f64; 6] {
         let torque = rotation.conjugate() * DVec3::from(arm).cross(DVec3::from(direction));

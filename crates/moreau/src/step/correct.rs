@@ -6,7 +6,7 @@
 //!
 //!   min ½ δ·M δ   with   gap + H_n* δ ≥ −½ ε R   at every contact,
 //!
-//! which is the problem of a step without friction with gaps for velocities; theory (62). Velocities stay as they are, so no kinetic energy
+//! which is the problem of a step without friction with gaps for velocities; theory (67). Velocities stay as they are, so no kinetic energy
 //! is made; what weights gain in height is booked as work.
 
 use super::integrate::moved;
@@ -60,7 +60,7 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
         displace(world, work, part);
     }
     let (_, after) = energies(&world.bodies, &world.gravity);
-    work.ledger.lift(after - before);
+    work.ledger.bring(after - before);
 }
 
 /// How deep two bodies may overlap, m.

@@ -63,13 +63,17 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         let before = in_frame::<D, TURNS>(&frame, &before_a, &before_b);
         let approach = Approach { gap: contact.gap, closed_below: closed_below(bodies, [a, b]), before, step: self.h };
         let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach);
-        let given = |body: usize, v: &[f64; D]| if bodies.is_free(body) { [0.0; D] } else { *v };
+        let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
+        let (after_a, after_b) = (free(a), free(b));
+        let after = in_frame::<D, TURNS>(&frame, &after_a, &after_b);
+        // The mean over the step of what driven bodies give.
+        let given = |body: usize, v: &[f64; D], w: &[f64; D]| {
+            if bodies.is_free(body) { [0.0; D] } else { std::array::from_fn(|k| 0.5 * (v[k] + w[k])) }
+        };
         let driven = match (bodies.is_free(a), bodies.is_free(b)) {
             (true, true) => [0.0; D],
-            _ => in_frame::<D, TURNS>(&frame, &given(a, &before_a), &given(b, &before_b)),
+            _ => in_frame::<D, TURNS>(&frame, &given(a, &before_a, &after_a), &given(b, &before_b, &after_b)),
         };
-        let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
-        let after = in_frame::<D, TURNS>(&frame, &free(a), &free(b));
         Localised::new(*contact, frame, form, [before, after, driven])
     }
 

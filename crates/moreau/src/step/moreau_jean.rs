@@ -22,7 +22,8 @@ const HALVINGS: u32 = 6;
 /// Advances the world by one step.
 ///
 /// # Errors
-/// [`StepError::Unconverged`] where the policy says to stop; the world is then as before the step.
+/// [`StepError::Unconverged`] where the policy says to stop; the world is then as before the step, but for what
+/// events and drives did at its beginning.
 /// [`StepError::NotFinite`] where a velocity or position ceases to be a number.
 pub fn step<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
@@ -39,7 +40,8 @@ pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     let started = Instant::now();
     work.failed.last = None;
     work.ledger.open(|| energies(&world.bodies, &world.gravity));
-    let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.len(), ..StepRecord::default() };
+    work.ledger.bring(world.act());
+    let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.present(), ..StepRecord::default() };
     let end = world.time + world.settings.h;
     if let Err(error) = advance(world, work, &mut record, world.settings.h, 0) {
         if let Some(before) = work.before.take() {
@@ -66,9 +68,11 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     h: f64,
     depth: u32,
 ) -> Result<(), StepError> {
-    let theta = world.settings.theta;
-    // 1-2 forces, v_free = v + h M⁻¹ f
+    let (theta, start) = (world.settings.theta, world.time);
+    // 1-2 drives, forces, v_free = v + h M⁻¹ f
+    world.schedule.begin_step(&mut world.bodies, start, h);
     forces::free_velocity(&world.bodies, &world.gravity, h, &mut work.free);
+    world.schedule.end_velocities(&world.bodies, start, h, &mut work.free);
     // 3 q_m = q + h (1 − θ) v
     integrate::predict(&world.bodies, h, theta, &mut work.middle);
     // 4 contacts at q_m, sorted by key
@@ -118,6 +122,7 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     work.ledger.dissipate(taken);
     remember(work);
     world.time += h;
+    world.schedule.place(&mut world.bodies, world.time);
     check_finite(world)
 }
 
@@ -265,7 +270,8 @@ fn unconverged(time: f64, report: &Report) -> StepError {
 
 fn check_finite<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>) -> Result<(), StepError> {
     let finite = |i: usize| {
-        world.bodies.velocity[i].iter().all(|x| x.is_finite()) && world.bodies.pose[i].position.iter().all(|x| x.is_finite())
+        let (velocity, position) = (&world.bodies.velocity[i], &world.bodies.pose[i].position);
+        velocity.iter().chain(position).all(|x| x.is_finite()) || !world.bodies.is_present(i)
     };
     let first = |mut part: Range<usize>| part.find(|&i| !finite(i));
     match tasks::fold(0..world.bodies.len(), &first, &Option::or) {

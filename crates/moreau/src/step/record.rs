@@ -15,7 +15,8 @@ pub struct Energy {
     pub kinetic: f64,
     /// −Σ m g·x.
     pub potential: f64,
-    /// Done by constant forces and torques, by driven bodies, and by corrections of positions.
+    /// Done by forces and torques and by driven bodies, and brought by bodies that came, went, or became free or driven, and by corrections
+    /// of positions.
     pub work: f64,
     /// Lost in contacts and joints, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round.
     pub dissipated: f64,
@@ -43,7 +44,7 @@ pub struct StepRecord {
     pub step: u64,
     /// Time at its end, s.
     pub time: f64,
-    /// Number of bodies.
+    /// Number of bodies that are there.
     pub bodies: usize,
     /// Contacts that took part.
     pub contacts: usize,
@@ -86,14 +87,7 @@ pub(super) fn energies<S: Space<D, N>, const D: usize, const N: usize>(
     bodies: &Bodies<S, D, N>,
     gravity: &[f64; D],
 ) -> (f64, f64) {
-    let [kinetic, potential] = tasks::sums(0..bodies.len(), &|i| {
-        if !bodies.is_free(i) {
-            return [0.0; 2];
-        }
-        let (v, mass) = (&bodies.velocity[i], &bodies.mass[i]);
-        let kinetic = 0.5 * (0..N).map(|k| mass[k] * v[k] * v[k]).sum::<f64>();
-        [kinetic, -mass[0] * dot(gravity, &bodies.pose[i].position)]
-    });
+    let [kinetic, potential] = tasks::sums(0..bodies.len(), &|i| bodies.energy(i, gravity));
     (kinetic, potential)
 }
 
@@ -146,11 +140,6 @@ impl Ledger {
         self.dissipated += bodies[1] + contacts[1];
     }
 
-    /// Books what a correction of positions did to the potential energy.
-    pub(super) fn lift(&mut self, energy: f64) {
-        self.work += energy;
-    }
-
     /// Books what joints do, as contacts do.
     pub(super) fn book_joints<const D: usize, const N: usize>(&mut self, blocks: &[Block<D, N>]) {
         for block in blocks {
@@ -158,6 +147,11 @@ impl Ledger {
             self.work -= dot(&block.impulse, &block.driven);
             self.dissipated -= dot(&block.impulse, &mean);
         }
+    }
+
+    /// Books what events and corrections of positions bring.
+    pub(super) fn bring(&mut self, energy: f64) {
+        self.work += energy;
     }
 
     /// Books what the scheme takes beside.

@@ -27,7 +27,7 @@ pub struct Localised<const D: usize> {
     pub before: [f64; D],
     /// Relative velocity at the end of the step, in the frame, m/s; where no contact of the step has friction, the normal part alone.
     pub after: [f64; D],
-    /// The part of both that driven bodies give.
+    /// What driven bodies give of both, the mean of before and after.
     pub driven: [f64; D],
     /// Impulse on body `b`, in the frame, N·s.
     pub impulse: [f64; D],

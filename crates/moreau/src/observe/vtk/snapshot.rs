@@ -65,17 +65,18 @@ impl Snapshot {
 
     fn take_bodies<S: Space<D, N>, const D: usize, const N: usize>(&mut self, frame: &Frame<'_, S, D, N>) {
         let (bodies, to) = (&frame.world.bodies, &mut self.bodies);
-        let all = 0..bodies.len();
-        refill(&mut to.points, bodies.pose.iter().map(|pose| space_vector(&pose.position)));
-        refill(&mut to.velocity, bodies.velocity.iter().map(|v| space_vector(&v[..D])));
+        // Those that are there; their id is the index in the world.
+        let all = (0..bodies.len()).filter(|&i| bodies.is_present(i));
+        refill(&mut to.points, all.clone().map(|i| space_vector(&bodies.pose[i].position)));
+        refill(&mut to.velocity, all.clone().map(|i| space_vector(&bodies.velocity[i][..D])));
         refill(&mut to.spin, all.clone().map(|i| S::spin_in_world(bodies.pose[i].rotation, &bodies.velocity[i])));
-        refill(&mut to.orientation, bodies.pose.iter().map(|pose| S::quaternion(pose.rotation)));
+        refill(&mut to.orientation, all.clone().map(|i| S::quaternion(bodies.pose[i].rotation)));
         // A half-space has no end: it is a point of its boundary with radius zero, which ParaView's glyphs leave out.
-        refill(&mut to.radius, bodies.shape.iter().map(|shape| shape.bounding_radius().unwrap_or(0.0)));
+        refill(&mut to.radius, all.clone().map(|i| bodies.shape[i].bounding_radius().unwrap_or(0.0)));
         // A driven body yields to nothing.
         let weighed = |i: usize| if bodies.is_free(i) { bodies.mass[i][0] } else { f64::INFINITY };
         refill(&mut to.mass, all.clone().map(weighed));
-        refill(&mut to.material, bodies.material.iter().map(|&material| i32::from(material)));
+        refill(&mut to.material, all.clone().map(|i| i32::from(bodies.material[i])));
         refill(&mut to.id, all.map(|i| i as i64));
     }
 

@@ -52,7 +52,7 @@ fn motion(body: &BodySpec, path: &KeyPath) -> Result<(), Fault> {
             let hint = "leave it out, or set motion = \"driven\" (moves as given) or \"free\"";
             Err(Fault::new(path.then(key), format!("a {key} of a fixed body"), hint))
         }
-        MotionKind::Fixed | MotionKind::Driven if loaded => {
+        MotionKind::Fixed | MotionKind::Driven if loaded && !body.is_ever_free() => {
             let key = if body.force.is_empty() { "torque" } else { "force" };
             let hint = "leave it out, or set motion = \"free\": only free bodies follow forces";
             Err(Fault::new(path.then(key), format!("a {key} on a body that is not free"), hint))

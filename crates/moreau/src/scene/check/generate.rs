@@ -67,7 +67,7 @@ fn lattice(scene: &Scene, generate: &Generate, spec: &Lattice, path: &KeyPath, p
     }
 }
 
-fn radii(radii: &Radii, path: &KeyPath) -> Result<(), Fault> {
+pub(super) fn radii(radii: &Radii, path: &KeyPath) -> Result<(), Fault> {
     match radii {
         Radii::Constant(radius) => positive(path.then("constant"), *radius, "in m"),
         Radii::Uniform(range) => limits(&path.then("uniform"), range.min, range.max),

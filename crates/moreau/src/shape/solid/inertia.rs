@@ -1,4 +1,4 @@
-//! Volume, centre of mass and inertia of what a closed surface of triangles holds, exactly, and principal axes; theory (61).
+//! Volume, centre of mass and inertia of what a closed surface of triangles holds, exactly, and principal axes; theory (66).
 
 use crate::space::Pose;
 use glam::{DMat3, DQuat, DVec3};

@@ -4,34 +4,35 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 /// A generator of fixed kind. Only sums, products and square roots follow it, which every machine rounds alike.
-pub(super) struct Random(Pcg64Mcg);
+#[derive(Clone, Debug)]
+pub(crate) struct Random(Pcg64Mcg);
 
 impl Random {
     /// Three independent generators from one seed: for sizes, places and velocities, so that changing one leaves the others.
-    pub(super) fn three(seed: u64) -> [Self; 3] {
+    pub(crate) fn three(seed: u64) -> [Self; 3] {
         let mut first = Pcg64Mcg::seed_from_u64(seed);
         std::array::from_fn(|_| Self(Pcg64Mcg::from_rng(&mut first)))
     }
 
     /// A number in [0, 1).
-    pub(super) fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
     }
 
     /// An index below `count`. (The bias of a product with 2⁶⁴ is below count / 2⁶⁴.)
-    pub(super) fn index(&mut self, count: usize) -> usize {
+    pub(crate) fn index(&mut self, count: usize) -> usize {
         ((u128::from(self.0.next_u64()) * count as u128) >> 64) as usize
     }
 
     /// Puts `items` in random order (Fisher and Yates).
-    pub(super) fn shuffle<T>(&mut self, items: &mut [T]) {
+    pub(crate) fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.index(last + 1));
         }
     }
 
     /// A point of the unit ball, all alike.
-    pub(super) fn in_ball<const D: usize>(&mut self) -> [f64; D] {
+    pub(crate) fn in_ball<const D: usize>(&mut self) -> [f64; D] {
         loop {
             let point = std::array::from_fn(|_| 2.0 * self.unit() - 1.0);
             if square(&point) <= 1.0 {
@@ -41,7 +42,7 @@ impl Random {
     }
 
     /// A direction, all alike; by rejection, because sines differ between machines.
-    pub(super) fn direction<const D: usize>(&mut self) -> [f64; D] {
+    pub(crate) fn direction<const D: usize>(&mut self) -> [f64; D] {
         loop {
             let point = self.in_ball();
             let length = square(&point).sqrt();
@@ -52,13 +53,13 @@ impl Random {
     }
 
     /// A number of the standard normal distribution.
-    pub(super) fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         use rand_distr::{Distribution, StandardNormal};
         StandardNormal.sample(&mut self.0)
     }
 }
 
 /// The square of a vector's length.
-pub(super) fn square<const D: usize>(v: &[f64; D]) -> f64 {
+pub(crate) fn square<const D: usize>(v: &[f64; D]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
