@@ -1,4 +1,4 @@
-//! Drives: motions and forces that are imposed on a body as functions of time (theory, section 18).
+//! Drives: motions and forces that are imposed on a body as functions of time (theory, section 19).
 //!
 //! A driven body is where its functions say at the end of each step, to rounding, and has their velocities at its beginning and end;
 //! the θ-method of a step takes both, as it does of free bodies. A force acts by its mean over the step, so that its impulse is exact.

@@ -1,7 +1,7 @@
 //! Events: what happens to bodies at given times. Drives begin and end, bodies come and go.
 //!
 //! Events act between steps: at the first beginning of a step at or after their time. What they change in the energy of the free bodies
-//! is booked as work (theory, section 18). All is done in a fixed order by one thread.
+//! is booked as work (theory, section 19). All is done in a fixed order by one thread.
 
 mod flow;
 
