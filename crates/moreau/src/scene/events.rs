@@ -1,8 +1,8 @@
 //! What happens in the course of a run: drives of single bodies, sources and sinks, and what the engine makes of them.
 
 use super::Scene;
-use super::build::{material, vector};
-use super::dimension::SceneSpace;
+use super::build::material;
+use super::dimension::{SceneSpace, vector};
 use super::error::Fault;
 use super::generate::Radii;
 use super::path::key_path;
