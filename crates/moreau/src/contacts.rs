@@ -8,8 +8,9 @@ pub struct ContactKey {
     /// The body with the higher index (the candidate).
     pub b: u32,
     /// Which of the pair's points: 0 for balls, the index of the vertex for polygons and boxes on a half-space, for two bodies with
-    /// corners which vertices or edges of both make it. The low 32 bits are the pair of shapes'; the high ones say which part of a body
-    /// that is made of several (from bit 54, of the second from bit 44), or which triangle of a mesh (from bit 32), the point is on.
+    /// corners which vertices or edges of both make it. The low 32 bits are the pair of shapes'; the 22 above say which segment of a
+    /// polyline or triangle of a mesh the point is on, and the highest ten which part of a body that is made of several. Of two such bodies
+    /// these are the second one's, and the first one's part is in the ten below.
     pub feature: u64,
 }
 
@@ -24,14 +25,4 @@ pub struct Contact<const D: usize> {
     pub normal: [f64; D],
     /// Distance along the normal, m; negative where the bodies overlap.
     pub gap: f64,
-}
-
-/// The bits of a feature for the part of a compound; of two compounds for that of the first.
-pub(crate) fn part(index: usize) -> u64 {
-    (index as u64) << 54
-}
-
-/// The bits of a feature for the part of the second of two compounds.
-pub(crate) fn second_part(index: usize) -> u64 {
-    (index as u64) << 44
 }

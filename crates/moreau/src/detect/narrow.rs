@@ -5,21 +5,23 @@
 //! used, in a fixed order, so that the same poses give the same bits on every machine.
 
 /// Writes a dimension's table of pairs and its dispatch. A row `A, B => file;` stands for both orders: `file::collide` gets the
-/// bodies in the order of the row. The first row, `[A, any] => file;`, is of a shape that meets every other, which `file::collide` gets as
-/// it is.
+/// bodies in the order of the row. The last row, `(parts of C) => file;`, stands for a body of several parts against any other:
+/// `file::collide` asks the table again for each part, and hands over what it finds through a `dyn FnMut`, without which there would
+/// be no end of types.
 macro_rules! pairs {
-    (
-        $Shape:ident in $Space:ident<$D:literal, $N:literal>:
-        $([$C:ident, any] => $any:ident;)?
+    ($Shape:ident in $Space:ident<$D:literal, $N:literal>:
         $($A:ident, $B:ident => $file:ident;)+
+        $((parts of $C:ident) => $parts:ident;)?
     ) => {
         /// Whether the table has a row for these two.
         #[allow(unreachable_patterns, reason = "a pair of two alike is its own reverse")]
         pub(crate) fn has(a: &$Shape, b: &$Shape) -> bool {
             match (a, b) {
-                $(($Shape::$C(_), _) | (_, $Shape::$C(_)) => true,)?
                 $(($Shape::$A(_), $Shape::$B(_)) => true,
                 ($Shape::$B(_), $Shape::$A(_)) => true,)+
+                $(($Shape::$C(compound), other) | (other, $Shape::$C(compound)) => {
+                    compound.parts().iter().all(|part| has(&part.shape, other))
+                })?
                 _ => false,
             }
         }
@@ -34,16 +36,12 @@ macro_rules! pairs {
             emit: &mut impl FnMut(u64, [f64; $D], [f64; $D], f64),
         ) {
             match (a, b) {
-                $(($Shape::$C(a), b) => $any::collide((a, pose_a), (b, pose_b), reach, emit),
-                (a, $Shape::$C(b)) => {
-                    let mut flipped = |feature, point, n: [f64; $D], gap| emit(feature, point, n.map(|x| -x), gap);
-                    $any::collide((b, pose_b), (a, pose_a), reach, &mut flipped);
-                })?
                 $(($Shape::$A(a), $Shape::$B(b)) => $file::collide((a, pose_a), (b, pose_b), reach, emit),
                 ($Shape::$B(b), $Shape::$A(a)) => {
                     let mut flipped = |feature, point, n: [f64; $D], gap| emit(feature, point, n.map(|x| -x), gap);
                     $file::collide((a, pose_b), (b, pose_a), reach, &mut flipped);
                 })+
+                $(($Shape::$C(_), _) | (_, $Shape::$C(_)) => $parts::collide((a, pose_a), (b, pose_b), reach, emit),)?
                 _ => {}
             }
         }

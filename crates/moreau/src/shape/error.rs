@@ -52,17 +52,56 @@ pub enum ShapeError {
         /// The later edge.
         second: usize,
     },
-    /// A notch.
-    #[error("the boundary turns inwards at vertex {vertex}; leave it out, or cut the polygon into convex ones")]
-    NotConvex {
+    /// A way that goes back along itself.
+    #[error("the way turns back on itself at vertex {vertex}; leave out what is gone along twice")]
+    TurnsBack {
         /// Where.
         vertex: usize,
     },
-    /// Too few points for a body in space.
-    #[error("{count} points; a polyhedron needs at least 4")]
+    /// A chain without a segment, or a polyhedron without an inside.
+    #[error("a {what} of {count} points; it needs at least {least}")]
     TooFewPoints {
+        /// Of what.
+        what: &'static str,
         /// How many were given.
         count: usize,
+        /// How many it needs.
+        least: usize,
+    },
+    /// More parts or segments than a contact can name.
+    #[error("{count} {what}; there can be at most {most}")]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// How many were given.
+        count: usize,
+        /// The most that there can be.
+        most: usize,
+    },
+    /// A compound of nothing.
+    #[error("a compound without parts; it needs at least 1")]
+    NoParts,
+    /// A part that is no single convex figure.
+    #[error("part {part} is a {name}; parts are single, bounded, convex shapes")]
+    NotAPart {
+        /// Which part.
+        part: usize,
+        /// Its shape.
+        name: &'static str,
+    },
+    /// A concave polygon that rounding leaves no place to cut.
+    #[error("the polygon cannot be cut into convex ones at vertex {vertex}: edges are nearer there than rounding can tell")]
+    NotCut {
+        /// Where.
+        vertex: usize,
+    },
+    /// A notch.
+    #[error(
+        "the boundary turns inwards at vertex {vertex}; leave it out, or cut the polygon into convex ones with decompose = true"
+    )]
+    NotConvex {
+        /// Where.
+        vertex: usize,
     },
     /// A point of space that is nowhere, or so far that moments of inertia overflow.
     #[error("point {vertex} is at ({x}, {y}, {z}); coordinates must be finite, and below 1e50 m")]
@@ -84,30 +123,29 @@ pub enum ShapeError {
         "no convex polyhedron can be told from these points: some are nearer to each other, or to a common plane, than a millionth of the size"
     )]
     NoHull,
-    /// No parts, or more than contacts can number.
-    #[error("a compound of {count} parts; expected 1 to {most}")]
-    Parts {
-        /// How many there are.
-        count: usize,
-        /// How many there may be.
-        most: usize,
-    },
-    /// A part that is unbounded, concave or of parts itself.
-    #[error("part {index} is a {name}; parts are bounded, convex, and not of parts themselves")]
-    Part {
-        /// Which part, from 0.
-        index: usize,
-        /// The name of its shape.
-        name: &'static str,
-    },
-    /// More corners than contacts can number.
-    #[error("{count} corners; a convex polyhedron may have {most}")]
-    TooManyVertices {
-        /// How many there are.
-        count: usize,
-        /// How many there may be.
-        most: usize,
-    },
+}
+
+impl ShapeError {
+    /// The vertex at which it is wrong; of an edge or of two vertices the later.
+    pub fn vertex(&self) -> Option<usize> {
+        match *self {
+            Self::NotFinite { vertex, .. }
+            | Self::NotFinitePoint { vertex, .. }
+            | Self::NoArea { vertex }
+            | Self::NotConvex { vertex }
+            | Self::TurnsBack { vertex }
+            | Self::NotCut { vertex } => Some(vertex),
+            Self::RepeatedVertex { first, second } | Self::SelfIntersecting { first, second } => Some(first.max(second)),
+            Self::NoVolume
+            | Self::NoHull
+            | Self::Length { .. }
+            | Self::TooFewVertices { .. }
+            | Self::TooFewPoints { .. }
+            | Self::TooMany { .. }
+            | Self::NoParts
+            | Self::NotAPart { .. } => None,
+        }
+    }
 }
 
 /// The length, if it is one.

@@ -6,6 +6,33 @@ use super::vector::{NO_DIRECTION, along, dot, sub};
 /// must not decide between them.
 pub(super) const LEVEL: f64 = 1e-9;
 
+/// The highest bits of a feature: the part of the second of two bodies of parts, or of the one such body.
+const LAST_PART: u32 = 54;
+
+/// The bits below: the part of the first of two bodies of parts.
+const FIRST_PART: u32 = 44;
+
+/// The bits above the pair's own: the piece of a body that is one surface in many pieces, such as the segment of a polyline.
+const PIECE: u32 = 32;
+
+/// The feature of a contact on a piece of a surface.
+#[inline]
+pub(super) fn on_piece(piece: usize, feature: u64) -> u64 {
+    ((piece as u64) << PIECE) | feature
+}
+
+/// The feature of a contact on a part of the first of two bodies of parts.
+#[inline]
+pub(super) fn on_first_part(part: usize, feature: u64) -> u64 {
+    ((part as u64) << FIRST_PART) | feature
+}
+
+/// The feature of a contact on a part of the second of two bodies of parts, or of the one such body.
+#[inline]
+pub(super) fn on_last_part(part: usize, feature: u64) -> u64 {
+    ((part as u64) << LAST_PART) | feature
+}
+
 /// Two round bodies (centre, radius). Where the centres coincide every direction is as good as another; the last axis is taken.
 #[inline]
 pub(in crate::detect) fn two_round<const D: usize>(

@@ -1,10 +1,15 @@
 //! Pairs of shapes in the plane.
 
+mod capsule_disk;
+mod capsule_half_plane;
+mod compound;
+mod core;
 mod disk_disk;
 mod disk_half_plane;
+mod facing;
 mod polygon_disk;
 mod polygon_half_plane;
-mod polygon_polygon;
+mod polyline;
 
 use crate::shape::{Placed, PlaneShape};
 use crate::space::{Plane, Space};
@@ -18,7 +23,15 @@ pairs! {
     Disk, HalfPlane => disk_half_plane;
     Polygon, HalfPlane => polygon_half_plane;
     Polygon, Disk => polygon_disk;
-    Polygon, Polygon => polygon_polygon;
+    Polygon, Polygon => facing;
+    Polygon, Capsule => facing;
+    Capsule, Capsule => facing;
+    Capsule, Disk => capsule_disk;
+    Capsule, HalfPlane => capsule_half_plane;
+    Polyline, Disk => polyline;
+    Polyline, Polygon => polyline;
+    Polyline, Capsule => polyline;
+    (parts of Compound) => compound;
 }
 
 #[cfg(test)]

@@ -19,7 +19,6 @@ type Pose = crate::space::Pose<<Solid as Space<3, 6>>::Rotation, 3>;
 
 pairs! {
     SolidShape in Solid<3, 6>:
-    [Compound, any] => compound;
     Ball, Ball => ball_ball;
     Ball, HalfSpace => ball_half_space;
     Cuboid, HalfSpace => box_half_space;
@@ -28,6 +27,7 @@ pairs! {
     Polyhedron, HalfSpace => polyhedron_half_space;
     Polyhedron, Cuboid => polyhedron_box;
     Polyhedron, Polyhedron => polyhedron_polyhedron;
+    (parts of Compound) => compound;
 }
 
 #[cfg(test)]

@@ -149,14 +149,7 @@ fn compound(scene: &Scene, parts: &[PartSpec], path: &KeyPath) -> Result<(), Fau
 
 /// The place of the vertex that is to blame, if one is.
 fn at_vertex(path: &KeyPath, error: &ShapeError) -> KeyPath {
-    match *error {
-        ShapeError::NotFinite { vertex, .. }
-        | ShapeError::NotFinitePoint { vertex, .. }
-        | ShapeError::NoArea { vertex }
-        | ShapeError::NotConvex { vertex } => path.then(vertex),
-        ShapeError::RepeatedVertex { second, .. } | ShapeError::SelfIntersecting { second, .. } => path.then(second),
-        _ => path.clone(),
-    }
+    error.vertex().map_or(path.clone(), |vertex| path.then(vertex))
 }
 
 fn container_of(scene: &Scene, container: &Container, path: &KeyPath) -> Result<(), Fault> {

@@ -49,8 +49,11 @@ impl Compound {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn with_moments(parts: Vec<(SolidShape, Pose<DQuat, 3>)>, mass: &Moments) -> Result<(Self, Pose<DQuat, 3>), ShapeError> {
-        if !(1..=Self::MOST_PARTS).contains(&parts.len()) {
-            return Err(ShapeError::Parts { count: parts.len(), most: Self::MOST_PARTS });
+        if parts.is_empty() {
+            return Err(ShapeError::NoParts);
+        }
+        if parts.len() > Self::MOST_PARTS {
+            return Err(ShapeError::TooMany { what: "parts of a compound", count: parts.len(), most: Self::MOST_PARTS });
         }
         let (moments, rotation) = mass.principal();
         let inside = |pose: Pose<DQuat, 3>| Pose {
@@ -59,7 +62,7 @@ impl Compound {
         };
         let part = |(index, (shape, pose)): (usize, (SolidShape, Pose<DQuat, 3>))| match shape.bounding_radius() {
             Some(radius) if shape.is_convex() => Ok(Part { shape, pose: inside(pose), radius }),
-            _ => Err(ShapeError::Part { index, name: shape.name() }),
+            _ => Err(ShapeError::NotAPart { part: index, name: shape.name() }),
         };
         let parts = parts.into_iter().enumerate().map(part).collect::<Result<Arc<[Part]>, _>>()?;
         let reach = |part: &Part| DVec3::from(part.pose.position).length() + part.radius;
@@ -136,7 +139,7 @@ mod tests {
     #[test]
     fn what_cannot_be_a_part_is_said() {
         let ball = || (SolidShape::from(Ball::new(0.1).unwrap()), at([0.0; 3], DQuat::IDENTITY));
-        assert!(Compound::new(vec![]).unwrap_err().to_string().contains("1 to 1024"));
+        assert!(Compound::new(vec![]).unwrap_err().to_string().contains("at least 1"));
         assert!(Compound::new(vec![ball(); 1025]).unwrap_err().to_string().contains("1025"));
         let wall = (SolidShape::from(HalfSpace), at([0.0; 3], DQuat::IDENTITY));
         assert!(Compound::new(vec![ball(), wall]).unwrap_err().to_string().contains("part 1 is a half_space"));

@@ -57,7 +57,11 @@ impl Polyhedron {
     pub fn hull_within(points: &[[f64; 3]], flat: f64) -> Result<(Self, Pose<DQuat, 3>), ShapeError> {
         let (vertices, faces) = hull::hull(points, flat)?;
         if vertices.len() > Self::MOST_VERTICES {
-            return Err(ShapeError::TooManyVertices { count: vertices.len(), most: Self::MOST_VERTICES });
+            return Err(ShapeError::TooMany {
+                what: "corners of a polyhedron",
+                count: vertices.len(),
+                most: Self::MOST_VERTICES,
+            });
         }
         let fan = faces.iter().flat_map(|face| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
         let mass = Moments::of_closed(fan.map(|triangle| triangle.map(|i| vertices[usize::from(i)])));

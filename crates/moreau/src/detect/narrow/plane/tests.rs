@@ -2,7 +2,11 @@ use super::*;
 use crate::shape::Shape;
 use crate::shape::plane::{Disk, HalfPlane, Polygon};
 
+mod capsules;
+mod compounds;
+mod outlines;
 mod polygons;
+mod polylines;
 
 type Found = (u64, [f64; 2], [f64; 2], f64);
 

@@ -18,7 +18,7 @@ const WIDER: i32 = 3;
 /// Vertices of the hull and its faces, counter-clockwise seen from outside. Of the size, `flat` is what may deviate from a plane.
 pub(super) fn hull(points: &[[f64; 3]], flat: f64) -> Result<(Vec<[f64; 3]>, Vec<Vec<u16>>), ShapeError> {
     if points.len() < 4 {
-        return Err(ShapeError::TooFewPoints { count: points.len() });
+        return Err(ShapeError::TooFewPoints { what: "polyhedron", count: points.len(), least: 4 });
     }
     if let Some(vertex) = points.iter().position(|p| !p.iter().all(|x| x.abs() < FARTHEST)) {
         let [x, y, z] = points[vertex];
@@ -34,7 +34,7 @@ pub(super) fn hull(points: &[[f64; 3]], flat: f64) -> Result<(Vec<[f64; 3]>, Vec
     let used: BTreeSet<usize> = faces.iter().flatten().copied().collect();
     let place: BTreeMap<usize, u16> = used.iter().copied().zip(0..).collect();
     if used.len() > usize::from(u16::MAX) {
-        return Err(ShapeError::TooManyVertices { count: used.len(), most: usize::from(u16::MAX) });
+        return Err(ShapeError::TooMany { what: "corners of a polyhedron", count: used.len(), most: usize::from(u16::MAX) });
     }
     let faces = faces.iter().map(|face| face.iter().map(|i| place[i]).collect()).collect();
     Ok((used.into_iter().map(|i| points[i]).collect(), faces))

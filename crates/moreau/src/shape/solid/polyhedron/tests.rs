@@ -133,5 +133,5 @@ fn what_is_no_body_is_said() {
     nowhere[5][1] = f64::NAN;
     assert!(of(&nowhere).contains("point 5"));
     assert!(of(&block([1e-80; 3])).contains("one plane"));
-    assert!(of(&prism(2100)).contains("may have 4096"));
+    assert!(of(&prism(2100)).contains("at most 4096"));
 }
