@@ -31,11 +31,13 @@ mod error;
 mod estimate;
 mod events;
 mod explain;
+mod files;
 mod generate;
 mod joints;
 mod lattice;
 mod packing;
 mod path;
+mod points;
 mod radii;
 mod source;
 mod spec;
@@ -48,7 +50,8 @@ pub use events::{DriveSpec, SinkSpec, SourceSpec};
 pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Range};
 pub use joints::{JointKindSpec, JointSpec};
 pub use spec::{
-    BodySpec, Container, Face, Material, MotionKind, Output, OutputKind, PairLaw, PartSpec, ShapeSpec, Solver, StartSpec, Time,
+    BodySpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, PartSpec, ShapeSpec, Solver, StartSpec,
+    Time,
 };
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 
@@ -92,6 +95,9 @@ pub struct Scene {
     /// Single bodies.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bodies: Vec<BodySpec>,
+    /// Files of many bodies. They are read with the scene and become part of `bodies`, in order, after those that are written there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub import: Vec<Import>,
     /// Containers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub containers: Vec<Container>,
@@ -128,10 +134,11 @@ pub enum AnyWorld {
 }
 
 impl Scene {
-    /// Reads a scene from text; `file_name` is what errors call it.
+    /// Reads a scene from text; `file_name` is what errors call it. Files that it names are read beside that file, and what they hold takes
+    /// their place.
     ///
     /// # Errors
-    /// The first thing that is wrong: in the text, in its keys and types, or in what the scene asks for.
+    /// The first thing that is wrong: in the text, in its keys and types, in files that it names, or in what the scene asks for.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, SceneError> {
         Self::parse_with(text, file_name, &[])
     }
@@ -150,6 +157,8 @@ impl Scene {
             Err(error) => return Err(explain::explain(&source, source.document()?.get_ref(), &error)),
         };
         scene.source = source;
+        let folder = Path::new(file_name).parent().unwrap_or(Path::new(""));
+        files::read(&mut scene, folder).map_err(|fault| scene.source.fault(&fault))?;
         check::check(&scene).map_err(|fault| scene.source.fault(&fault))?;
         Ok(scene)
     }

@@ -4,6 +4,9 @@ mod bodies;
 mod events;
 mod generate;
 mod joints;
+mod plane;
+
+pub(super) use plane::{Refusal, polygon_error, polyline_error};
 
 use super::error::{Fault, nearest};
 use super::path::{KeyPath, Segment, key_path};
@@ -174,7 +177,7 @@ fn region(scene: &Scene, path: &KeyPath, min: &[f64], max: &[f64]) -> Result<(),
 }
 
 /// The name of a material that the scene has.
-fn material(scene: &Scene, path: KeyPath, name: &str) -> Result<(), Fault> {
+pub(super) fn material(scene: &Scene, path: KeyPath, name: &str) -> Result<(), Fault> {
     if scene.materials.contains_key(name) {
         return Ok(());
     }

@@ -2,8 +2,9 @@
 
 use super::spec::{PartSpec, ShapeSpec};
 use super::values::{Angular, Numbers, Orientation, Turn};
-use crate::shape::plane::{Disk, HalfPlane, Polygon};
-use crate::shape::solid::{Ball, Compound, Cuboid, HalfSpace, Polyhedron};
+use crate::shape::plane::{Capsule, Disk, HalfPlane, Polygon, Polyline, decompose};
+use crate::shape::solid::{Ball, Cuboid, HalfSpace, Polyhedron};
+use crate::shape::{PlaneShape, ShapeError, plane, solid};
 use crate::space::{Plane, Pose, Solid, Space};
 use glam::{DQuat, DVec3};
 
@@ -49,15 +50,56 @@ pub(super) fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     v.map(|x| x / length)
 }
 
+/// A shape of the plane whose coordinates' origin is at `position`, by its centre of mass in these coordinates.
+fn around(shape: PlaneShape, centre: [f64; 2], position: [f64; 2], rotation: [f64; 2]) -> Placed<Plane, 2, 3> {
+    let [x, y] = Plane::rotate(rotation, centre);
+    (shape, Pose { position: [position[0] + x, position[1] + y], rotation })
+}
+
+/// The parts of a compound in its coordinates; nothing where a part has no shape of the dimension.
+fn parts<S: SceneSpace<D, N>, const D: usize, const N: usize>(parts: &[PartSpec]) -> Option<Vec<Placed<S, D, N>>> {
+    parts.iter().map(|part| S::place(&part.shape, vector(&part.position), S::rotation(part.orientation.as_ref()))).collect()
+}
+
+/// The compound of these parts and its centre of mass, or why there is none; nothing where a part has no shape of the plane.
+pub(super) fn plane_compound(specs: &[PartSpec]) -> Option<Result<(plane::Compound, [f64; 2]), ShapeError>> {
+    Some(plane::Compound::new(parts::<Plane, 2, 3>(specs)?))
+}
+
+/// The compound of these parts and its own frame, or why there is none; nothing where a part has no shape of space.
+pub(super) fn solid_compound(specs: &[PartSpec]) -> Option<Result<(solid::Compound, Pose<DQuat, 3>), ShapeError>> {
+    Some(solid::Compound::new(parts::<Solid, 3, 6>(specs)?))
+}
+
+/// Points of the scene as points.
+pub(super) fn points(numbers: &[Numbers<2>]) -> Vec<[f64; 2]> {
+    numbers.iter().map(|point| point.0).collect()
+}
+
 impl SceneSpace<2, 3> for Plane {
     fn place(spec: &ShapeSpec, position: [f64; 2], rotation: [f64; 2]) -> Option<Placed<Self, 2, 3>> {
         match spec {
             ShapeSpec::Disk { radius } => Some((Self::round(*radius), Pose { position, rotation })),
             ShapeSpec::HalfPlane { normal: Numbers(normal) } => Some(Self::wall(position, unit(*normal))),
-            ShapeSpec::Polygon { vertices } => {
-                let (shape, centroid) = Polygon::new(vertices.iter().map(|v| v.0).collect()).ok()?;
-                let [x, y] = Self::rotate(rotation, centroid);
-                Some((shape.into(), Pose { position: [position[0] + x, position[1] + y], rotation }))
+            ShapeSpec::Box { size } => {
+                let &[width, height] = size.as_slice() else { return None };
+                Some((Polygon::rectangle(width, height).ok()?.into(), Pose { position, rotation }))
+            }
+            ShapeSpec::Capsule { radius, length } => {
+                Some((Capsule::new(*radius, *length).ok()?.into(), Pose { position, rotation }))
+            }
+            ShapeSpec::Polygon { vertices, decompose: concave, .. } => {
+                let vertices = points(vertices);
+                let polygon = || Polygon::new(vertices.clone()).map(|(polygon, centre)| (polygon.into(), centre));
+                let (shape, centre) = if *concave { decompose(vertices.clone()) } else { polygon() }.ok()?;
+                Some(around(shape, centre, position, rotation))
+            }
+            ShapeSpec::Polyline { points: chain, closed, .. } => {
+                Some((Polyline::new(&points(chain), *closed).ok()?.into(), Pose { position, rotation }))
+            }
+            ShapeSpec::Compound { parts } => {
+                let (shape, centre) = plane_compound(parts)?.ok()?;
+                Some(around(shape.into(), centre, position, rotation))
             }
             _ => None,
         }
@@ -99,17 +141,16 @@ impl SceneSpace<3, 6> for Solid {
     fn place(spec: &ShapeSpec, position: [f64; 3], rotation: DQuat) -> Option<Placed<Self, 3, 6>> {
         match spec {
             ShapeSpec::Ball { radius } => Some((Self::round(*radius), Pose { position, rotation })),
-            ShapeSpec::Box { size: Numbers(size) } => {
-                Some((Cuboid { half: size.map(|edge| 0.5 * edge) }.into(), Pose { position, rotation }))
+            ShapeSpec::Box { size } => {
+                let &[x, y, z] = size.as_slice() else { return None };
+                Some((Cuboid { half: [0.5 * x, 0.5 * y, 0.5 * z] }.into(), Pose { position, rotation }))
             }
             ShapeSpec::Polyhedron { points } => {
                 let (shape, own) = Polyhedron::hull(&points.iter().map(|point| point.0).collect::<Vec<_>>()).ok()?;
                 Some((shape.into(), placed(Pose { position, rotation }, own)))
             }
             ShapeSpec::Compound { parts } => {
-                let part =
-                    |part: &PartSpec| Self::place(&part.shape, vector(&part.position), Self::rotation(part.orientation.as_ref()));
-                let (shape, own) = Compound::new(parts.iter().map(part).collect::<Option<_>>()?).ok()?;
+                let (shape, own) = solid_compound(parts)?.ok()?;
                 Some((shape.into(), placed(Pose { position, rotation }, own)))
             }
             ShapeSpec::HalfSpace { normal: Numbers(normal) } => Some(Self::wall(position, unit(*normal))),

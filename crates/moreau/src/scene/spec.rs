@@ -152,8 +152,8 @@ pub struct BodySpec {
     pub shape: ShapeSpec,
     /// The name of its material.
     pub material: String,
-    /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon, polyhedron or
-    /// compound the place of the origin of its corners or parts, so that the centre of mass is there plus the turned centroid.
+    /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon, polyline, polyhedron or
+    /// compound the place of its coordinates' origin, so that the centre of mass is there plus the turned centroid.
     pub position: Vec<f64>,
     /// How it is turned: an angle in rad in the plane, a quaternion [x, y, z, w] in space, or in both a table such as
     /// { axis = [0, 0, 1], degrees = 30 }, in the plane without the axis. Not for half-spaces, which have a normal.
@@ -187,21 +187,16 @@ pub enum ShapeSpec {
         /// Its radius, m.
         radius: f64,
     },
-    /// A box; in space.
+    /// A box, in the plane a rectangle.
     Box {
-        /// The lengths of its edges along its own axes, m.
-        size: Numbers<3>,
+        /// The lengths of its edges along its own axes, m: two in the plane, three in space.
+        #[schemars(length(min = 2, max = 3))]
+        size: Vec<f64>,
     },
     /// A convex polyhedron; in space.
     Polyhedron {
         /// Its corners in any order, m: the body is their convex hull.
         points: Vec<Numbers<3>>,
-    },
-    /// Several shapes as one rigid body.
-    Compound {
-        /// The parts, at most 1024: bounded, convex, and not compounds. The mass is the sum of theirs; where they overlap, what they share
-        /// counts as often.
-        parts: Vec<PartSpec>,
     },
     /// Everything below a plane; in space.
     HalfSpace {
@@ -213,29 +208,48 @@ pub enum ShapeSpec {
         /// Its radius, m.
         radius: f64,
     },
-    /// A convex polygon; in the plane.
+    /// All points within a radius of a segment around the centre, in the plane of the x axis.
+    Capsule {
+        /// The radius, m.
+        radius: f64,
+        /// The length of the segment, m; the whole is longer by twice the radius.
+        length: f64,
+    },
+    /// A polygon; in the plane. It must be convex, or else cut into convex pieces.
     Polygon {
         /// Its vertices in order around it, m.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
         vertices: Vec<Numbers<2>>,
+        /// In place of `vertices` a table of them, CSV, beside the scene: a row `x,y` a vertex, in m; `#` begins a comment. For a file of
+        /// several polygons see `import`.
+        file: Option<String>,
+        /// Whether it may be concave: it is then a compound of convex pieces, with the mass of the whole.
+        #[serde(default, skip_serializing_if = "is_false")]
+        decompose: bool,
+    },
+    /// A chain of segments, fixed or driven; in the plane. It is solid to the right of the way along it: a ground by points from left to
+    /// right has its solid below.
+    Polyline {
+        /// Its points in order, m.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        points: Vec<Numbers<2>>,
+        /// In place of `points` a table of them, CSV, beside the scene: a row `x,y` a point, in m; `#` begins a comment.
+        file: Option<String>,
+        /// Whether a last segment goes back to the first point. Clockwise it is an island, counter-clockwise a vessel.
+        #[serde(default, skip_serializing_if = "is_false")]
+        closed: bool,
+    },
+    /// Several convex shapes held together; in the plane. Mass, centre and moment of inertia are the sums of the parts', so that where
+    /// parts overlap their mass counts as often as they do.
+    Compound {
+        /// The parts, at most 1024.
+        parts: Vec<PartSpec>,
     },
     /// Everything below a line; in the plane.
     HalfPlane {
         /// The direction out of it, of any length.
         normal: Numbers<2>,
     },
-}
-
-/// A part of a compound.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PartSpec {
-    /// Its form.
-    pub shape: ShapeSpec,
-    /// Where it is in the coordinates of the body, m, as for a body; default the origin.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub position: Vec<f64>,
-    /// How it is turned, as for a body.
-    pub orientation: Option<Orientation>,
 }
 
 impl ShapeSpec {
@@ -245,27 +259,73 @@ impl ShapeSpec {
             ShapeSpec::Ball { .. } => "ball",
             ShapeSpec::Box { .. } => "box",
             ShapeSpec::Polyhedron { .. } => "polyhedron",
-            ShapeSpec::Compound { .. } => "compound",
             ShapeSpec::HalfSpace { .. } => "half_space",
             ShapeSpec::Disk { .. } => "disk",
+            ShapeSpec::Capsule { .. } => "capsule",
             ShapeSpec::Polygon { .. } => "polygon",
+            ShapeSpec::Polyline { .. } => "polyline",
+            ShapeSpec::Compound { .. } => "compound",
             ShapeSpec::HalfPlane { .. } => "half_plane",
         }
     }
 
-    /// The number of coordinates that it lives in; of a compound that of its first part.
-    pub fn dimension(&self) -> usize {
+    /// The numbers of coordinates that it can live in.
+    pub fn dimensions(&self) -> &'static [usize] {
         match self {
-            ShapeSpec::Compound { parts } => parts.first().map_or(3, |part| part.shape.dimension()),
-            ShapeSpec::Ball { .. } | ShapeSpec::Box { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => 3,
-            ShapeSpec::Disk { .. } | ShapeSpec::Polygon { .. } | ShapeSpec::HalfPlane { .. } => 2,
+            ShapeSpec::Box { .. } | ShapeSpec::Compound { .. } => &[2, 3],
+            ShapeSpec::Ball { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => &[3],
+            ShapeSpec::Capsule { .. } => &[2],
+            ShapeSpec::Disk { .. } | ShapeSpec::Polygon { .. } | ShapeSpec::HalfPlane { .. } | ShapeSpec::Polyline { .. } => &[2],
         }
     }
 
-    /// Whether it goes on without end, so that it can only be fixed or driven.
+    /// Whether it has no end or no inside, and so no mass: it can only be fixed or driven.
     pub fn is_unbounded(&self) -> bool {
+        matches!(self, ShapeSpec::Polyline { .. }) || self.has_normal()
+    }
+
+    /// Whether a normal says how it is turned.
+    pub fn has_normal(&self) -> bool {
         matches!(self, ShapeSpec::HalfSpace { .. } | ShapeSpec::HalfPlane { .. })
     }
+}
+
+/// A part of a compound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartSpec {
+    /// Its form, one that could be a free body's.
+    pub shape: ShapeSpec,
+    /// Where it is in the compound's coordinates, m; default their origin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub position: Vec<f64>,
+    /// How it is turned there.
+    pub orientation: Option<Orientation>,
+}
+
+/// Whether a value is left out when a scene is written.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks by reference")]
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+/// Bodies from a file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Import {
+    /// A body a polygon; in the plane.
+    Polygons {
+        /// A table, CSV, beside the scene: a row `x,y` a vertex, in m; `#` begins a comment. Polygons are set apart by empty lines, or
+        /// by a column `id` if a first line names the columns, as in `id,x,y`.
+        file: String,
+        /// The name of their material.
+        material: String,
+        /// Whether they may be concave; see `polygon`.
+        #[serde(default, skip_serializing_if = "is_false")]
+        decompose: bool,
+        /// How they move; default free.
+        motion: Option<MotionKind>,
+    },
 }
 
 /// A container: walls around a region, each a fixed half-space (half-plane) that looks inwards and goes on beyond the region's

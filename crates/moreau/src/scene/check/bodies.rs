@@ -1,12 +1,11 @@
 //! Checks of single bodies and of containers.
 
+use super::plane::{compound, polygon, polyline};
 use super::{angular, material, plural, positive, region, vector};
 use crate::scene::error::Fault;
 use crate::scene::path::{KeyPath, key_path};
-use crate::scene::{BodySpec, Container, Face, MotionKind, Numbers, Orientation, PartSpec, Scene, ShapeSpec, Turn};
-use crate::shape::ShapeError;
-use crate::shape::plane::Polygon;
-use crate::shape::solid::{Compound, Polyhedron};
+use crate::scene::{BodySpec, Container, Face, MotionKind, Numbers, Orientation, Scene, ShapeSpec, Turn};
+use crate::shape::solid::Polyhedron;
 use std::collections::BTreeMap;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
@@ -30,7 +29,7 @@ fn body_of(scene: &Scene, body: &BodySpec, path: &KeyPath) -> Result<(), Fault> 
     angular(scene, path.then("spin"), body.spin.as_ref())?;
     angular(scene, path.then("torque"), body.torque.as_ref())?;
     if let Some(orientation) = &body.orientation {
-        if body.shape.is_unbounded() {
+        if body.shape.has_normal() {
             let hint = "its normal says how it is turned: leave the orientation out";
             return Err(Fault::new(path.then("orientation"), format!("an orientation of a {}", body.shape.name()), hint));
         }
@@ -61,7 +60,7 @@ fn motion(body: &BodySpec, path: &KeyPath) -> Result<(), Fault> {
     }
 }
 
-fn orientation_of(scene: &Scene, orientation: &Orientation, path: &KeyPath) -> Result<(), Fault> {
+pub(super) fn orientation_of(scene: &Scene, orientation: &Orientation, path: &KeyPath) -> Result<(), Fault> {
     let fault = |message: &str, hint: &str| Err(Fault::new(path.clone(), message, hint));
     let plane = scene.dimension.number() == 2;
     match orientation {
@@ -95,61 +94,39 @@ pub(super) fn nonzero(path: &KeyPath, direction: &[f64]) -> Result<(), Fault> {
     Err(Fault::new(path.clone(), "a direction without a length", "expected numbers that are not all zero"))
 }
 
-fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<(), Fault> {
+pub(super) fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<(), Fault> {
     let dimension = scene.dimension.number();
-    if shape.dimension() != dimension {
-        let known =
-            if dimension == 2 { "disk, polygon and half_plane" } else { "ball, box, polyhedron, compound and half_space" };
+    if !shape.dimensions().contains(&dimension) {
+        let plane = "disk, box, polygon, capsule, compound, half_plane and polyline";
+        let known = if dimension == 2 { plane } else { "ball, box, polyhedron, compound and half_space" };
         let message = format!("a {} where dimension = {dimension}", shape.name());
         return Err(Fault::new(path.clone(), message, format!("the shapes of dimension {dimension} are {known}")));
     }
     let path = path.then(shape.name());
     match shape {
         ShapeSpec::Ball { radius } | ShapeSpec::Disk { radius } => positive(path.then("radius"), *radius, "in m"),
-        ShapeSpec::Box { size: Numbers(size) } => {
+        ShapeSpec::Box { size } => {
+            vector(scene, path.then("size"), size, false)?;
             size.iter().enumerate().try_for_each(|(k, &edge)| positive(path.then("size").then(k), edge, "in m"))
         }
         ShapeSpec::HalfSpace { normal: Numbers(normal) } => nonzero(&path.then("normal"), normal),
         ShapeSpec::HalfPlane { normal: Numbers(normal) } => nonzero(&path.then("normal"), normal),
-        ShapeSpec::Polygon { vertices } => polygon(&path.then("vertices"), vertices),
-        ShapeSpec::Compound { parts } => compound(scene, parts, &path.then("parts")),
+        ShapeSpec::Capsule { radius, length } => {
+            positive(path.then("radius"), *radius, "in m")?;
+            positive(path.then("length"), *length, "in m")
+        }
+        ShapeSpec::Polygon { vertices, decompose, file } => polygon(&path, vertices, *decompose, file.as_deref()),
+        ShapeSpec::Polyline { points, closed, file } => polyline(&path, points, *closed, file.as_deref()),
         ShapeSpec::Polyhedron { points } => polyhedron(&path.then("points"), points),
+        ShapeSpec::Compound { parts } => compound(scene, &path.then("parts"), parts),
     }
-}
-
-/// What the shape itself says of its vertices.
-fn polygon(path: &KeyPath, vertices: &[Numbers<2>]) -> Result<(), Fault> {
-    let Err(error) = Polygon::new(vertices.iter().map(|vertex| vertex.0).collect()) else { return Ok(()) };
-    let hint = "expected the corners of a convex polygon, in order around it";
-    Err(Fault::new(at_vertex(path, &error), format!("not a convex polygon: {error}"), hint))
 }
 
 fn polyhedron(path: &KeyPath, points: &[Numbers<3>]) -> Result<(), Fault> {
     let Err(error) = Polyhedron::hull(&points.iter().map(|point| point.0).collect::<Vec<_>>()) else { return Ok(()) };
     let hint = "expected the corners of a convex polyhedron, in any order";
-    Err(Fault::new(at_vertex(path, &error), format!("not a convex polyhedron: {error}"), hint))
-}
-
-fn compound(scene: &Scene, parts: &[PartSpec], path: &KeyPath) -> Result<(), Fault> {
-    let most = Compound::MOST_PARTS;
-    if !(1..=most).contains(&parts.len()) {
-        return Err(Fault::new(path.clone(), plural(parts.len(), "part"), format!("expected 1 to {most} parts")));
-    }
-    parts.iter().enumerate().try_for_each(|(i, part)| {
-        let path = path.then(i);
-        if part.shape.is_unbounded() || matches!(part.shape, ShapeSpec::Compound { .. }) {
-            let message = format!("a {} as a part of a compound", part.shape.name());
-            return Err(Fault::new(path.then("shape"), message, "expected a bounded, convex shape"));
-        }
-        shape(scene, &part.shape, &path.then("shape"))?;
-        vector(scene, path.then("position"), &part.position, true)?;
-        part.orientation.as_ref().map_or(Ok(()), |turn| orientation_of(scene, turn, &path.then("orientation")))
-    })
-}
-
-/// The place of the vertex that is to blame, if one is.
-fn at_vertex(path: &KeyPath, error: &ShapeError) -> KeyPath {
-    error.vertex().map_or(path.clone(), |vertex| path.then(vertex))
+    let path = error.vertex().map_or(path.clone(), |vertex| path.then(vertex));
+    Err(Fault::new(path, format!("not a convex polyhedron: {error}"), hint))
 }
 
 fn container_of(scene: &Scene, container: &Container, path: &KeyPath) -> Result<(), Fault> {

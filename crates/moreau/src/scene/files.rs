@@ -1,0 +1,114 @@
+//! Files that a scene names: they are read with it, and what they hold takes their place.
+
+use super::check::{Refusal, polygon_error, polyline_error};
+use super::error::Fault;
+use super::path::{KeyPath, key_path};
+use super::points::{Outline, outlines};
+use super::spec::{BodySpec, Import, PartSpec, ShapeSpec};
+use super::{Dimension, Numbers, Scene};
+use std::path::Path;
+
+/// Reads the files of a scene; their paths are relative to `folder`.
+pub(super) fn read(scene: &mut Scene, folder: &Path) -> Result<(), Fault> {
+    for (i, body) in scene.bodies.iter_mut().enumerate() {
+        shape(&mut body.shape, folder, &key_path!["bodies", i, "shape"])?;
+    }
+    for (i, import) in std::mem::take(&mut scene.import).into_iter().enumerate() {
+        let path = key_path!["import", i];
+        if scene.dimension != Dimension::Two {
+            return Err(Fault::new(path, "polygons where dimension = 3", "expected dimension = 2"));
+        }
+        polygons(scene, import, i, folder, &path.then("polygons"))?;
+    }
+    Ok(())
+}
+
+fn shape(spec: &mut ShapeSpec, folder: &Path, path: &KeyPath) -> Result<(), Fault> {
+    let path = path.then(spec.name());
+    match spec {
+        ShapeSpec::Polygon { vertices, file, decompose } => {
+            let concave = *decompose;
+            one(vertices, file, folder, (&path, "vertices"), |outline| polygon_error(outline.points.clone(), concave))
+        }
+        ShapeSpec::Polyline { points, file, closed } => {
+            let closed = *closed;
+            one(points, file, folder, (&path, "points"), |outline| polyline_error(&outline.points, closed))
+        }
+        ShapeSpec::Compound { parts } => {
+            let mut parts = parts.iter_mut().enumerate();
+            parts.try_for_each(|(i, PartSpec { shape: spec, .. })| shape(spec, folder, &path.then("parts").then(i).then("shape")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What an outline does not keep to.
+type Check<'a> = &'a dyn Fn(&Outline) -> Option<Refusal>;
+
+/// Puts the one outline of a file in its place.
+fn one(
+    points: &mut Vec<Numbers<2>>,
+    file: &mut Option<String>,
+    folder: &Path,
+    (path, key): (&KeyPath, &str),
+    check: impl Fn(&Outline) -> Option<Refusal>,
+) -> Result<(), Fault> {
+    let Some(name) = file.take() else { return Ok(()) };
+    if !points.is_empty() {
+        return Err(Fault::new(path.clone(), format!("{key} and a file"), "keep one of them"));
+    }
+    let mut found = all(&name, folder, &path.then("file"), &check)?;
+    if found.len() > 1 {
+        let message = format!("{name}:{}: a second outline begins, where a shape has one", found[1].lines[0]);
+        return Err(Fault::new(path.then("file"), message, "take out empty lines; for many polygons, use [[import]]"));
+    }
+    *points = found.pop().map_or(Vec::new(), |outline| outline.points.into_iter().map(Numbers).collect());
+    Ok(())
+}
+
+/// All outlines of a file, each checked; at least one.
+fn all(name: &str, folder: &Path, path: &KeyPath, check: Check<'_>) -> Result<Vec<Outline>, Fault> {
+    let place = folder.join(name);
+    let fault = |message: String, hint: &str| Fault::new(path.clone(), message, hint);
+    let unread = |e: &dyn std::fmt::Display| {
+        let hint = "expected a file, by its path from the folder of the scene";
+        fault(format!("cannot read {}: {e}", place.display()), hint)
+    };
+    // A device or a pipe might have no end.
+    if !std::fs::metadata(&place).map_err(|e| unread(&e))?.is_file() {
+        return Err(unread(&"it is not a file"));
+    }
+    let text = std::fs::read_to_string(&place).map_err(|e| unread(&e))?;
+    let found = outlines(&text).map_err(|wrong| fault(format!("{name}:{}: {}", wrong.line, wrong.message), wrong.hint))?;
+    if found.is_empty() {
+        return Err(fault(format!("{name} has no points"), "expected a row x,y a point"));
+    }
+    for outline in &found {
+        if let Some((error, message, hint)) = check(outline) {
+            let line = error.vertex().and_then(|vertex| outline.lines.get(vertex)).unwrap_or(&outline.lines[0]);
+            let from = outline.lines[0];
+            return Err(fault(format!("{name}:{line}: {message} (vertex 0 is in line {from})"), hint));
+        }
+    }
+    Ok(found)
+}
+
+fn polygons(scene: &mut Scene, import: Import, number: usize, folder: &Path, path: &KeyPath) -> Result<(), Fault> {
+    let Import::Polygons { file, material, decompose, motion } = import;
+    let found = all(&file, folder, &path.then("file"), &|outline| polygon_error(outline.points.clone(), decompose))?;
+    // Here, because the body that a later check would name is not in the text.
+    super::check::material(scene, path.then("material"), &material)?;
+    scene.bodies.extend(found.into_iter().enumerate().map(|(i, outline)| BodySpec {
+        name: Some(format!("import[{number}] {}", outline.id.unwrap_or_else(|| i.to_string()))),
+        shape: ShapeSpec::Polygon { vertices: outline.points.into_iter().map(Numbers).collect(), file: None, decompose },
+        material: material.clone(),
+        position: vec![0.0, 0.0],
+        orientation: None,
+        velocity: Vec::new(),
+        spin: None,
+        motion,
+        force: Vec::new(),
+        torque: None,
+    }));
+    Ok(())
+}
