@@ -109,6 +109,8 @@ fn polygons(scene: &mut Scene, import: Import, number: usize, folder: &Path, pat
         motion,
         force: Vec::new(),
         torque: None,
+        drive: Vec::new(),
+        removed_at: None,
     }));
     Ok(())
 }

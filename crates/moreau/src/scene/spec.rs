@@ -239,7 +239,7 @@ pub enum ShapeSpec {
         #[serde(default, skip_serializing_if = "is_false")]
         closed: bool,
     },
-    /// Several convex shapes held together; in the plane. Mass, centre and moment of inertia are the sums of the parts', so that where
+    /// Several convex shapes held together. Mass, centre and moments of inertia are the sums of the parts', so that where
     /// parts overlap their mass counts as often as they do.
     Compound {
         /// The parts, at most 1024.

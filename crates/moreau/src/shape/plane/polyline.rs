@@ -69,7 +69,7 @@ impl Polyline {
     pub fn new(points: &[[f64; 2]], closed: bool) -> Result<Self, ShapeError> {
         let least = if closed { 3 } else { 2 };
         if points.len() < least {
-            return Err(ShapeError::TooFewPoints { count: points.len(), least });
+            return Err(ShapeError::TooFewPoints { what: "polyline", count: points.len(), least });
         }
         check_finite(points)?;
         let count = if closed { points.len() } else { points.len() - 1 };

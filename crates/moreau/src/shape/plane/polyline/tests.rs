@@ -19,8 +19,8 @@ fn a_ground_from_left_to_right_looks_up_and_knows_its_bends() {
 
 #[test]
 fn chains_that_cannot_be_are_refused() {
-    assert_eq!(refusal(&[[0.0, 0.0]], false), ShapeError::TooFewPoints { count: 1, least: 2 });
-    assert_eq!(refusal(&[[0.0, 0.0], [1.0, 0.0]], true), ShapeError::TooFewPoints { count: 2, least: 3 });
+    assert_eq!(refusal(&[[0.0, 0.0]], false), ShapeError::TooFewPoints { what: "polyline", count: 1, least: 2 });
+    assert_eq!(refusal(&[[0.0, 0.0], [1.0, 0.0]], true), ShapeError::TooFewPoints { what: "polyline", count: 2, least: 3 });
     assert!(matches!(refusal(&[[0.0, f64::NAN], [1.0, 0.0]], false), ShapeError::NotFinite { vertex: 0, .. }));
     let twice = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [2.0, 0.0]];
     assert_eq!(refusal(&twice, false), ShapeError::RepeatedVertex { first: 1, second: 2 });
