@@ -2,8 +2,8 @@
 
 use super::spec::{PartSpec, ShapeSpec};
 use super::values::{Angular, Numbers, Orientation, Turn};
-use crate::shape::plane::{Capsule, Disk, HalfPlane, Polygon, Polyline, decompose};
-use crate::shape::solid::{Ball, Cuboid, HalfSpace, Polyhedron};
+use crate::shape::plane::{Disk, HalfPlane, Polygon, Polyline, decompose};
+use crate::shape::solid::{Ball, Cuboid, Cylinder, HalfSpace, Polyhedron};
 use crate::shape::{PlaneShape, ShapeError, plane, solid};
 use crate::space::{Plane, Pose, Solid, Space};
 use glam::{DQuat, DVec3};
@@ -86,7 +86,7 @@ impl SceneSpace<2, 3> for Plane {
                 Some((Polygon::rectangle(width, height).ok()?.into(), Pose { position, rotation }))
             }
             ShapeSpec::Capsule { radius, length } => {
-                Some((Capsule::new(*radius, *length).ok()?.into(), Pose { position, rotation }))
+                Some((plane::Capsule::new(*radius, *length).ok()?.into(), Pose { position, rotation }))
             }
             ShapeSpec::Polygon { vertices, decompose: concave, .. } => {
                 let vertices = points(vertices);
@@ -152,6 +152,12 @@ impl SceneSpace<3, 6> for Solid {
             ShapeSpec::Compound { parts } => {
                 let (shape, own) = solid_compound(parts)?.ok()?;
                 Some((shape.into(), placed(Pose { position, rotation }, own)))
+            }
+            ShapeSpec::Capsule { radius, length } => {
+                Some((solid::Capsule { radius: *radius, half: 0.5 * length }.into(), Pose { position, rotation }))
+            }
+            ShapeSpec::Cylinder { radius, length } => {
+                Some((Cylinder { radius: *radius, half: 0.5 * length }.into(), Pose { position, rotation }))
             }
             ShapeSpec::HalfSpace { normal: Numbers(normal) } => Some(Self::wall(position, unit(*normal))),
             _ => None,

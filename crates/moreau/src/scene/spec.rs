@@ -198,6 +198,13 @@ pub enum ShapeSpec {
         /// Its corners in any order, m: the body is their convex hull.
         points: Vec<Numbers<3>>,
     },
+    /// A circular cylinder, its axis along its own z axis; in space.
+    Cylinder {
+        /// Its radius, m.
+        radius: f64,
+        /// Its length from cap to cap, m.
+        length: f64,
+    },
     /// Everything below a plane; in space.
     HalfSpace {
         /// The direction out of it, of any length.
@@ -208,7 +215,7 @@ pub enum ShapeSpec {
         /// Its radius, m.
         radius: f64,
     },
-    /// All points within a radius of a segment around the centre, in the plane of the x axis.
+    /// All points within a radius of a segment around the centre, which in the plane is of the x axis and in space of the z axis.
     Capsule {
         /// The radius, m.
         radius: f64,
@@ -259,6 +266,7 @@ impl ShapeSpec {
             ShapeSpec::Ball { .. } => "ball",
             ShapeSpec::Box { .. } => "box",
             ShapeSpec::Polyhedron { .. } => "polyhedron",
+            ShapeSpec::Cylinder { .. } => "cylinder",
             ShapeSpec::HalfSpace { .. } => "half_space",
             ShapeSpec::Disk { .. } => "disk",
             ShapeSpec::Capsule { .. } => "capsule",
@@ -272,9 +280,8 @@ impl ShapeSpec {
     /// The numbers of coordinates that it can live in.
     pub fn dimensions(&self) -> &'static [usize] {
         match self {
-            ShapeSpec::Box { .. } | ShapeSpec::Compound { .. } => &[2, 3],
-            ShapeSpec::Ball { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => &[3],
-            ShapeSpec::Capsule { .. } => &[2],
+            ShapeSpec::Box { .. } | ShapeSpec::Capsule { .. } | ShapeSpec::Compound { .. } => &[2, 3],
+            ShapeSpec::Ball { .. } | ShapeSpec::Cylinder { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => &[3],
             ShapeSpec::Disk { .. } | ShapeSpec::Polygon { .. } | ShapeSpec::HalfPlane { .. } | ShapeSpec::Polyline { .. } => &[2],
         }
     }

@@ -2,7 +2,9 @@
 
 mod ball;
 mod compound;
+mod capsule;
 mod cuboid;
+mod cylinder;
 mod faceted;
 mod half_space;
 mod inertia;
@@ -10,7 +12,9 @@ mod polyhedron;
 
 pub use ball::Ball;
 pub use compound::{Compound, Part};
+pub use capsule::Capsule;
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
 pub use faceted::{Edge, Faceted};
 pub use half_space::HalfSpace;
 pub use inertia::Moments;
@@ -28,5 +32,7 @@ shapes! {
     Cuboid, "box", "a rectangular box, by its edge lengths";
     Polyhedron, "polyhedron", "a convex polyhedron, by its corners";
     Compound, "compound", "several shapes as one rigid body";
+    Capsule, "capsule", "all within a radius of a segment, by radius and length";
+    Cylinder, "cylinder", "a circular cylinder, by radius and length";
     HalfSpace, "half_space", "all that lies below a plane: ground or wall, fixed or driven";
 }

@@ -98,7 +98,7 @@ pub(super) fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<
     let dimension = scene.dimension.number();
     if !shape.dimensions().contains(&dimension) {
         let plane = "disk, box, polygon, capsule, compound, half_plane and polyline";
-        let known = if dimension == 2 { plane } else { "ball, box, polyhedron, compound and half_space" };
+        let known = if dimension == 2 { plane } else { "ball, box, capsule, cylinder, polyhedron, compound and half_space" };
         let message = format!("a {} where dimension = {dimension}", shape.name());
         return Err(Fault::new(path.clone(), message, format!("the shapes of dimension {dimension} are {known}")));
     }
@@ -111,7 +111,7 @@ pub(super) fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<
         }
         ShapeSpec::HalfSpace { normal: Numbers(normal) } => nonzero(&path.then("normal"), normal),
         ShapeSpec::HalfPlane { normal: Numbers(normal) } => nonzero(&path.then("normal"), normal),
-        ShapeSpec::Capsule { radius, length } => {
+        ShapeSpec::Capsule { radius, length } | ShapeSpec::Cylinder { radius, length } => {
             positive(path.then("radius"), *radius, "in m")?;
             positive(path.then("length"), *length, "in m")
         }

@@ -1,10 +1,12 @@
 use super::*;
 use crate::shape::Shape;
-use crate::shape::solid::{Ball, Cuboid, HalfSpace};
+use crate::shape::solid::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
 use glam::{DQuat, DVec3};
 
 mod boxes;
 mod polyhedra;
+mod curved;
+mod resting;
 
 type Found = (u64, [f64; 3], [f64; 3], f64);
 
