@@ -4,7 +4,7 @@ use crate::failure::{Failure, say};
 use crate::table::aligned;
 use clap::ValueEnum;
 use moreau::joints::JOINTS;
-use moreau::scene::Scene;
+use moreau::scene::{BUILDERS, Scene};
 use moreau::solve::global::GLOBAL_METHODS;
 use moreau::solve::law::LAWS;
 use moreau::solve::local::LOCAL_METHODS;
@@ -26,6 +26,8 @@ enum What {
     Shapes,
     /// Joints
     Joints,
+    /// Builders
+    Builders,
     /// Outputs
     Outputs,
 }
@@ -50,6 +52,10 @@ pub(crate) fn list(args: &Args) -> Result<(), Failure> {
             plane.chain(shape::solid::SHAPES.iter().map(|it| named("3D", it))).collect()
         }
         What::Joints => JOINTS.iter().map(|(_, it)| row(it)).collect(),
+        What::Builders => {
+            let dimensions = |in_them: &[usize]| in_them.iter().map(|d| format!("{d}D")).collect::<Vec<_>>().join(" ");
+            BUILDERS.iter().map(|(in_them, it)| vec![it.name.to_owned(), dimensions(in_them), it.about.to_owned()]).collect()
+        }
         What::Outputs => OUTPUTS.iter().map(row).collect(),
     };
     say(&aligned(&rows))

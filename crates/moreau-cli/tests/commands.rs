@@ -21,6 +21,7 @@ fn tables_have_a_row_for_each_name() {
         ("global", &["nlgs", "accelerated"]),
         ("criteria", &["eps_glob", "scaled", "siconos", "strict"]),
         ("shapes", &["ball", "box", "half_space", "disk", "polygon", "half_plane", "capsule", "cylinder", "polyhedron", "compound", "polyline"]),
+        ("builders", &["arch", "wall", "dome", "ballast"]),
         ("outputs", &["vtk", "steps"]),
     ];
     for (table, names) in known {

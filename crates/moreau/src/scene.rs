@@ -25,6 +25,7 @@
 //! ```
 
 mod build;
+pub mod builders;
 mod check;
 mod dimension;
 mod error;
@@ -44,6 +45,7 @@ mod spec;
 mod start;
 mod values;
 
+pub use builders::{BUILDERS, Build, BuildKind};
 pub use error::{LineColumn, Place, SceneError};
 pub use estimate::Estimate;
 pub use events::{DriveSpec, SinkSpec, SourceSpec};
@@ -63,6 +65,7 @@ use path::KeyPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use source::Source;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
@@ -98,6 +101,9 @@ pub struct Scene {
     /// Files of many bodies. They are read with the scene and become part of `bodies`, in order, after those that are written there.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub import: Vec<Import>,
+    /// Structures of many bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub build: Vec<Build>,
     /// Containers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub containers: Vec<Container>,
@@ -199,8 +205,8 @@ impl Scene {
     /// Makes the world. A scene that needs more than `available_memory` bytes is refused before anything is allocated; `u64::MAX`
     /// is no limit.
     ///
-    /// Bodies come in the order of the scene: `bodies`, walls of `containers`, `generate`, then those that `sources` will bring, which are
-    /// absent until then.
+    /// Bodies come in the order of the scene: `bodies`, those of `build`, walls of `containers`, `generate`, then those that `sources` will
+    /// bring, which are absent until then.
     ///
     /// # Errors
     /// Where the memory does not suffice, a generator cannot place its bodies, shapes cannot touch each other, or bodies overlap.
@@ -227,11 +233,31 @@ impl Scene {
     }
 
     /// The name that the scene gives to body `index` of the world, if any.
-    pub fn body_name(&self, index: usize) -> Option<&str> {
-        self.bodies.get(index)?.name.as_deref()
+    pub fn body_name(&self, index: usize) -> Option<Cow<'_, str>> {
+        match start::Origin::of(self, index)? {
+            start::Origin::Body(i) => self.bodies.get(i)?.name.as_deref().map(Cow::from),
+            start::Origin::Built(i, number) => self.build.get(i)?.name_of(number).map(Cow::from),
+            _ => None,
+        }
     }
 
-    /// Words for body `index` of the world that tell where it comes from: `bodies[3] "hammer"`, `wall -z of containers[0]`.
+    /// The index in the world of the body that has this name in the scene.
+    pub fn body_named(&self, name: &str) -> Option<usize> {
+        if let Some(index) = self.bodies.iter().position(|body| body.name.as_deref() == Some(name)) {
+            return Some(index);
+        }
+        let mut first = self.bodies.len() as u64;
+        for build in &self.build {
+            if let Some(number) = build.number_of(name, self.dimension.number()) {
+                return usize::try_from(first.saturating_add(number)).ok();
+            }
+            first = first.saturating_add(build.count(self.dimension.number()));
+        }
+        None
+    }
+
+    /// Words for body `index` of the world that tell where it comes from: `bodies[3] "hammer"`, `voussoir 2 of build[0]`, `wall -z of
+    /// containers[0]`.
     pub fn body_label(&self, index: usize) -> String {
         start::Origin::of(self, index).map_or_else(|| format!("body {index}"), |origin| origin.label(self))
     }
@@ -245,9 +271,11 @@ impl Scene {
         Law::Frictionless(Frictionless::default())
     }
 
-    /// How many bodies the scene names one by one: its bodies and the walls of its containers.
-    fn explicit_bodies(&self) -> usize {
-        self.bodies.len() + self.containers.iter().map(|container| container.walls().count()).sum::<usize>()
+    /// How many bodies there are that are not generated: single ones, those of builders, and the walls of containers.
+    fn explicit_bodies(&self) -> u64 {
+        let walls: usize = self.containers.iter().map(|container| container.walls().count()).sum();
+        let built = self.build.iter().map(|build| build.count(self.dimension.number()));
+        built.fold((self.bodies.len() + walls) as u64, u64::saturating_add)
     }
 }
 

@@ -135,7 +135,7 @@ fn bodies_of_space_arrive_as_they_are_written() {
     assert_eq!((bodies.material[0], bodies.material[1]), (1, 0));
     assert_eq!(world.laws.get(0, 1).name(), "coulomb");
     assert_eq!(world.laws.get(1, 1).name(), "frictionless");
-    assert_eq!((scene.body_name(0), scene.body_name(1)), (Some("block"), None));
+    assert_eq!((scene.body_name(0).as_deref(), scene.body_name(1)), (Some("block"), None));
     assert_eq!(scene.body_label(0), "bodies[0] \"block\"");
     assert_eq!(scene.body_label(3), "wall +x of containers[0]");
     assert_eq!(scene.body_label(6), "wall -z of containers[0]");

@@ -1,13 +1,13 @@
-//! From a scene to a world: the bodies in the order of the scene, then the walls of containers, then what is generated.
+//! From a scene to a world: the bodies in the order of the scene, then what is built, the walls of containers, and what is generated.
 
 use super::dimension::{SceneSpace, vector, velocity_in_body};
 use super::error::Fault;
 use super::generate::{Arrangement, Generate, Radii};
 use super::lattice::Sites;
 use super::packing::pack;
-use super::path::key_path;
+use super::path::{KeyPath, key_path};
 use super::spec::{BodySpec, Container, MotionKind};
-use super::{Scene, events, joints, start};
+use super::{Scene, builders, events, joints, start};
 use crate::bodies::{Bodies, Body, Motion};
 use crate::laws::Laws;
 use crate::random::Random;
@@ -20,6 +20,15 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
     let mut bodies = Bodies::default();
     for body in &scene.bodies {
         if let Some(body) = explicit::<S, D, N>(scene, body) {
+            bodies.push(body);
+        }
+    }
+    for (i, build) in scene.build.iter().enumerate() {
+        for (number, body) in (0..).zip(builders::bodies::<S, D, N>(scene, i, build)?) {
+            let body = explicit::<S, D, N>(scene, &body).ok_or_else(|| {
+                let message = format!("{} has no volume that can be told from rounding", build.label_of(i, number));
+                Fault::new(key_path!["build", i, "kind"], message, "expected sizes that differ less from each other")
+            })?;
             bodies.push(body);
         }
     }
@@ -102,7 +111,7 @@ fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
     let [mut sizes, mut places, mut speeds] = Random::three(spec.seed.unwrap_or(index as u64));
     let count = usize::try_from(spec.number(D)).unwrap_or(usize::MAX);
     let radii = spec.radii.draw(count, D, &mut sizes).ok_or_else(|| Radii::empty(key_path!["generate", index, "radii"]))?;
-    let centres = centres::<D>(index, spec, &radii, &mut places)?;
+    let centres = centres::<D>(spec.arrangement(), spec.radii.largest(), &radii, &mut places, &key_path!["generate", index])?;
     let (material, density) = material(scene, &spec.material);
     let common = S::join(vector(&spec.velocity), spec.spin.as_ref());
     // Numbered along a curve through space: neighbours are then near each other in memory, too.
@@ -124,11 +133,18 @@ fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
     Ok(())
 }
 
-fn centres<const D: usize>(index: usize, spec: &Generate, radii: &[f64], random: &mut Random) -> Result<Vec<[f64; D]>, Fault> {
-    match spec.arrangement() {
+/// Centres for balls of these radii, none larger than the `largest`.
+pub(super) fn centres<const D: usize>(
+    arrangement: Option<Arrangement<'_>>,
+    largest: f64,
+    radii: &[f64],
+    random: &mut Random,
+    path: &KeyPath,
+) -> Result<Vec<[f64; D]>, Fault> {
+    match arrangement {
         Some(Arrangement::Lattice(lattice)) => {
-            let sites = Sites::new(lattice, spec.radii.largest(), D);
-            let room = 0.5 * lattice.jitter * (sites.spacing() - 2.0 * spec.radii.largest()).max(0.0);
+            let sites = Sites::new(lattice, largest, D);
+            let room = 0.5 * lattice.jitter * (sites.spacing() - 2.0 * largest).max(0.0);
             let mut centres = sites.first::<D>(radii.len());
             if room > 0.0 {
                 for centre in &mut centres {
@@ -144,7 +160,7 @@ fn centres<const D: usize>(index: usize, spec: &Generate, radii: &[f64], random:
                 let message =
                     format!("{placed} of {} bodies fit: the next found no room in {} tries", radii.len(), packing.tries);
                 let hint = "expected fewer bodies, a larger region, more tries, or a lattice";
-                Fault::new(key_path!["generate", index, "packing"], message, hint)
+                Fault::new(path.then("packing"), message, hint)
             })
         }
         None => Ok(Vec::new()),

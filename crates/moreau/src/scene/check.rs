@@ -1,8 +1,9 @@
 //! What a scene must keep to beyond its form: ranges, names, and numbers of components.
 
 mod bodies;
+mod builders;
 mod events;
-mod generate;
+pub(super) mod generate;
 mod joints;
 mod plane;
 
@@ -38,6 +39,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
     }
     output(&scene.output)?;
     bodies::check(scene)?;
+    builders::check(scene)?;
     generate::check(scene)?;
     joints::check(scene)?;
     events::check(scene)?;
@@ -102,7 +104,7 @@ fn output(output: &Output) -> Result<(), Fault> {
 /// Counts the bodies before any is made.
 fn count(scene: &Scene) -> Result<(), Fault> {
     let dimension = scene.dimension.number();
-    let mut total = scene.explicit_bodies() as u64;
+    let mut total = scene.explicit_bodies();
     for (i, generate) in scene.generate.iter().enumerate() {
         let number = generate.number(dimension);
         total = total.saturating_add(number);
@@ -120,8 +122,8 @@ fn count(scene: &Scene) -> Result<(), Fault> {
             return Err(Fault::new(key_path!["sources", i], message, "expected a smaller rate, or a count"));
         }
     }
-    if scene.bodies.is_empty() && scene.generate.is_empty() && scene.sources.is_empty() {
-        let hint = "add [[bodies]], [[generate]] or [[sources]]; a container alone has nothing to hold";
+    if scene.bodies.is_empty() && scene.build.is_empty() && scene.generate.is_empty() && scene.sources.is_empty() {
+        let hint = "add [[bodies]], [[build]], [[generate]] or [[sources]]; a container alone has nothing to hold";
         return Err(Fault::new(KeyPath::default(), "the scene has no bodies", hint));
     }
     Ok(())

@@ -37,9 +37,11 @@ pub(super) fn estimate(scene: &Scene) -> Estimate {
         let density = scene.materials.get(&generate.material).map_or(0.0, |material| material.density);
         generated_mass += number as f64 * density * unit_ball * generate.radii.mean_power(dimension);
     }
-    let free = scene.bodies.iter().filter(|body| body.motion() == MotionKind::Free).count() as u64;
     let to_come = scene.sources.iter().map(|source| source.number(&scene.time)).fold(0, u64::saturating_add);
-    let bodies = generated.saturating_add(to_come).saturating_add(scene.explicit_bodies() as u64);
+    let alone = scene.bodies.iter().filter(|body| body.motion() == MotionKind::Free).count() as u64;
+    let built = scene.build.iter().map(|build| build.free(dimension));
+    let free = built.fold(alone, u64::saturating_add);
+    let bodies = generated.saturating_add(to_come).saturating_add(scene.explicit_bodies());
     let free_bodies = generated.saturating_add(to_come).saturating_add(free);
     let contacts = free_bodies.saturating_mul(dimension as u64);
     let memory_bytes = bodies.saturating_mul(BODY_BYTES).saturating_add(contacts.saturating_mul(CONTACT_BYTES));
@@ -55,13 +57,18 @@ pub(super) fn check_memory(scene: &Scene, available: u64) -> Result<(), Fault> {
     let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);
     let dimension = scene.dimension.number();
     let largest = (0..scene.generate.len()).max_by_key(|&i| scene.generate[i].number(dimension));
-    let most = (0..scene.sources.len()).max_by_key(|&i| scene.sources[i].number(&scene.time));
-    let flows = |i: usize| scene.sources[i].number(&scene.time) > largest.map_or(0, |i| scene.generate[i].number(dimension));
-    let path = match largest {
-        _ if most.is_some_and(flows) => key_path!["sources", most.unwrap_or_default()],
-        Some(i) if scene.generate[i].count.is_some() => key_path!["generate", i, "count"],
-        Some(i) => key_path!["generate", i, "lattice"],
-        None => key_path!["bodies"],
+    let generated = largest.map_or(0, |i| scene.generate[i].number(dimension));
+    let built = (0..scene.build.len()).max_by_key(|&i| scene.build[i].count(dimension));
+    let flowing = (0..scene.sources.len()).max_by_key(|&i| scene.sources[i].number(&scene.time));
+    let built = built.filter(|&i| scene.build[i].count(dimension) > generated);
+    let path = match (flowing.filter(|&i| scene.sources[i].number(&scene.time) > generated), built) {
+        (Some(i), _) => key_path!["sources", i],
+        (_, Some(i)) => key_path!["build", i],
+        _ => match largest {
+            Some(i) if scene.generate[i].count.is_some() => key_path!["generate", i, "count"],
+            Some(i) => key_path!["generate", i, "lattice"],
+            None => key_path!["bodies"],
+        },
     };
     let (need, have) = (gib(estimate.memory_bytes), gib(available));
     let message = format!("{} bodies need about {need:.1} GiB of memory, {have:.1} GiB are there", estimate.bodies);

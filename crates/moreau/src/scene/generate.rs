@@ -149,14 +149,19 @@ impl Arrangement<'_> {
     }
 }
 
+/// The lattice or the packing; `None` where there is not exactly one.
+pub(super) fn arrangement<'a>(lattice: Option<&'a Lattice>, packing: Option<&'a Packing>) -> Option<Arrangement<'a>> {
+    match (lattice, packing) {
+        (Some(lattice), None) => Some(Arrangement::Lattice(lattice)),
+        (None, Some(packing)) => Some(Arrangement::Packing(packing)),
+        _ => None,
+    }
+}
+
 impl Generate {
     /// The lattice or the packing; `None` where there is not exactly one.
     pub(super) fn arrangement(&self) -> Option<Arrangement<'_>> {
-        match (&self.lattice, &self.packing) {
-            (Some(lattice), None) => Some(Arrangement::Lattice(lattice)),
-            (None, Some(packing)) => Some(Arrangement::Packing(packing)),
-            _ => None,
-        }
+        arrangement(self.lattice.as_ref(), self.packing.as_ref())
     }
 
     /// How many balls in `dimension` dimensions.

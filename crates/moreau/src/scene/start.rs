@@ -16,6 +16,8 @@ use std::collections::BTreeMap;
 pub(super) enum Origin {
     /// The body of this index.
     Body(usize),
+    /// The builder of this index, and the how-manieth of its bodies.
+    Built(usize, u64),
     /// A wall of the container of this index, and its face.
     Wall(usize, &'static str),
     /// The generator of this index, and the how-manieth of its bodies.
@@ -31,6 +33,13 @@ impl Origin {
             return Some(Origin::Body(index));
         }
         let mut left = index - scene.bodies.len();
+        for (i, build) in scene.build.iter().enumerate() {
+            let count = usize::try_from(build.count(scene.dimension.number())).unwrap_or(usize::MAX);
+            if left < count {
+                return Some(Origin::Built(i, left as u64));
+            }
+            left -= count;
+        }
         for (i, container) in scene.containers.iter().enumerate() {
             let count = container.walls().count();
             if let Some((_, _, face)) = container.walls().nth(left) {
@@ -58,6 +67,7 @@ impl Origin {
     fn path(self) -> KeyPath {
         match self {
             Origin::Body(i) => key_path!["bodies", i],
+            Origin::Built(i, _) => key_path!["build", i],
             Origin::Wall(i, _) => key_path!["containers", i],
             Origin::Generated(i, _) => key_path!["generate", i],
             Origin::Source(i, _) => key_path!["sources", i],
@@ -71,6 +81,9 @@ impl Origin {
                 Some(name) => format!("bodies[{i}] {name:?}"),
                 None => format!("bodies[{i}]"),
             },
+            Origin::Built(i, k) => {
+                scene.build.get(i).map_or_else(|| format!("number {k} of build[{i}]"), |build| build.label_of(i, k))
+            }
             Origin::Wall(i, face) => format!("wall {face} of containers[{i}]"),
             Origin::Generated(i, k) => format!("number {k} of generate[{i}]"),
             Origin::Source(i, k) => format!("number {k} of sources[{i}]"),

@@ -2,10 +2,10 @@
 
 use super::{angular, material, positive, region, vector};
 use crate::scene::error::Fault;
-use crate::scene::generate::Arrangement;
+use crate::scene::generate::{Arrangement, arrangement};
 use crate::scene::lattice::Sites;
 use crate::scene::path::{KeyPath, key_path};
-use crate::scene::{Generate, Lattice, LogNormal, Numbers, Radii, Range, Scene};
+use crate::scene::{Generate, Lattice, LogNormal, Numbers, Packing, Radii, Range, Scene};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
     scene.generate.iter().enumerate().try_for_each(|(i, generate)| generator(scene, generate, &key_path!["generate", i]))
@@ -23,18 +23,31 @@ fn generator(scene: &Scene, generate: &Generate, path: &KeyPath) -> Result<(), F
     if generate.count == Some(0) {
         return Err(Fault::new(path.then("count"), "a generator of 0 bodies", "expected 1 or more"));
     }
-    let Some(arrangement) = generate.arrangement() else {
-        let both = generate.lattice.is_some();
-        let (message, hint) =
-            if both { ("a lattice and a packing", "keep one of them") } else { ("no places", "add a lattice or a packing") };
-        return Err(Fault::new(path.clone(), message, format!("{hint}: each generator needs exactly one")));
+    let places = (generate.lattice.as_ref(), generate.packing.as_ref());
+    arranged(scene, places, generate.count, generate.radii.largest(), path)
+}
+
+/// The places of bodies that are held by balls of radii up to the `largest`: on a lattice or in a packing.
+pub(in crate::scene) fn arranged(
+    scene: &Scene,
+    (on, within): (Option<&Lattice>, Option<&Packing>),
+    count: Option<u64>,
+    largest: f64,
+    path: &KeyPath,
+) -> Result<(), Fault> {
+    let Some(arrangement) = arrangement(on, within) else {
+        let (message, hint) = match on {
+            Some(_) => ("a lattice and a packing", "keep one of them"),
+            None => ("no places", "add a lattice or a packing"),
+        };
+        return Err(Fault::new(path.clone(), message, format!("{hint}: exactly one is needed")));
     };
     let place = path.then(arrangement.name());
     let (min, max) = arrangement.region();
     region(scene, &place, min, max)?;
     match arrangement {
-        Arrangement::Lattice(spec) => lattice(scene, generate, spec, path, &place),
-        Arrangement::Packing(_) if generate.count.is_none() => {
+        Arrangement::Lattice(spec) => lattice(scene, spec, count, largest, path),
+        Arrangement::Packing(_) if count.is_none() => {
             Err(Fault::new(path.clone(), "a packing without a count", "add `count = …`: how many bodies to put in"))
         }
         Arrangement::Packing(packing) if packing.tries == 0 => {
@@ -44,7 +57,8 @@ fn generator(scene: &Scene, generate: &Generate, path: &KeyPath) -> Result<(), F
     }
 }
 
-fn lattice(scene: &Scene, generate: &Generate, spec: &Lattice, path: &KeyPath, place: &KeyPath) -> Result<(), Fault> {
+fn lattice(scene: &Scene, spec: &Lattice, count: Option<u64>, largest: f64, path: &KeyPath) -> Result<(), Fault> {
+    let place = path.then("lattice");
     if let Some(spacing) = spec.spacing {
         positive(place.then("spacing"), spacing, "in m")?;
     }
@@ -52,12 +66,12 @@ fn lattice(scene: &Scene, generate: &Generate, spec: &Lattice, path: &KeyPath, p
         let message = format!("the jitter is {}", spec.jitter);
         return Err(Fault::new(place.then("jitter"), message, "expected a part of the free room, from 0 to 1"));
     }
-    let sites = Sites::new(spec, generate.radii.largest(), scene.dimension.number());
+    let sites = Sites::new(spec, largest, scene.dimension.number());
     let (sites, spacing) = (sites.count(), sites.spacing());
-    match generate.count {
+    match count {
         _ if sites == 0 => {
             let message = format!("the region is narrower than the lattice's spacing of {spacing} m");
-            Err(Fault::new(place.clone(), message, "expected a larger region or a smaller spacing"))
+            Err(Fault::new(place, message, "expected a larger region or a smaller spacing"))
         }
         Some(count) if count > sites => {
             let message = format!("{count} bodies on a lattice of {sites} sites (spacing {spacing} m)");
@@ -67,7 +81,8 @@ fn lattice(scene: &Scene, generate: &Generate, spec: &Lattice, path: &KeyPath, p
     }
 }
 
-pub(super) fn radii(radii: &Radii, path: &KeyPath) -> Result<(), Fault> {
+/// A distribution of radii.
+pub(in crate::scene) fn radii(radii: &Radii, path: &KeyPath) -> Result<(), Fault> {
     match radii {
         Radii::Constant(radius) => positive(path.then("constant"), *radius, "in m"),
         Radii::Uniform(range) => limits(&path.then("uniform"), range.min, range.max),
