@@ -20,7 +20,22 @@ fn tables_have_a_row_for_each_name() {
         ("local", &["sbp", "sal", "ebp", "eal", "pdas", "exact"]),
         ("global", &["nlgs", "accelerated"]),
         ("criteria", &["eps_glob", "scaled", "siconos", "strict"]),
-        ("shapes", &["ball", "box", "half_space", "disk", "polygon", "half_plane", "capsule", "cylinder", "polyhedron", "compound", "polyline"]),
+        (
+            "shapes",
+            &[
+                "ball",
+                "box",
+                "half_space",
+                "disk",
+                "polygon",
+                "half_plane",
+                "capsule",
+                "cylinder",
+                "polyhedron",
+                "compound",
+                "polyline",
+            ],
+        ),
         ("builders", &["arch", "wall", "dome", "ballast"]),
         ("outputs", &["vtk", "steps"]),
     ];

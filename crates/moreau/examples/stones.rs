@@ -17,7 +17,6 @@ use moreau::world::World;
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::time::Instant;
 
 const FRICTION: f64 = 0.5;
 const DENSITY: f64 = 2500.0;

@@ -281,7 +281,9 @@ impl ShapeSpec {
     pub fn dimensions(&self) -> &'static [usize] {
         match self {
             ShapeSpec::Box { .. } | ShapeSpec::Capsule { .. } | ShapeSpec::Compound { .. } => &[2, 3],
-            ShapeSpec::Ball { .. } | ShapeSpec::Cylinder { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => &[3],
+            ShapeSpec::Ball { .. } | ShapeSpec::Cylinder { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => {
+                &[3]
+            }
             ShapeSpec::Disk { .. } | ShapeSpec::Polygon { .. } | ShapeSpec::HalfPlane { .. } | ShapeSpec::Polyline { .. } => &[2],
         }
     }

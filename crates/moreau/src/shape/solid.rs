@@ -1,8 +1,8 @@
 //! The shapes of space. Lengths in m, volumes in m³.
 
 mod ball;
-mod compound;
 mod capsule;
+mod compound;
 mod cuboid;
 mod cylinder;
 mod faceted;
@@ -11,8 +11,8 @@ mod inertia;
 mod polyhedron;
 
 pub use ball::Ball;
-pub use compound::{Compound, Part};
 pub use capsule::Capsule;
+pub use compound::{Compound, Part};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use faceted::{Edge, Faceted};

@@ -11,13 +11,13 @@ mod capsule_ball;
 mod capsule_capsule;
 mod capsule_facets;
 mod capsule_half_space;
+mod compound;
 mod curved;
 mod cylinder_ball;
 mod cylinder_capsule;
 mod cylinder_cylinder;
 mod cylinder_facets;
 mod cylinder_half_space;
-mod compound;
 mod facets;
 mod polyhedron_box;
 mod polyhedron_half_space;
@@ -48,10 +48,10 @@ pairs! {
     Ball, Polyhedron => ball_facets;
     Capsule, Polyhedron => capsule_facets;
     Cylinder, Polyhedron => cylinder_facets;
-    (parts of Compound) => compound;
     Polyhedron, HalfSpace => polyhedron_half_space;
     Polyhedron, Cuboid => polyhedron_box;
     Polyhedron, Polyhedron => polyhedron_polyhedron;
+    (parts of Compound) => compound;
 }
 
 #[cfg(test)]

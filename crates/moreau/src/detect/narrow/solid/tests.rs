@@ -4,8 +4,8 @@ use crate::shape::solid::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
 use glam::{DQuat, DVec3};
 
 mod boxes;
-mod polyhedra;
 mod curved;
+mod polyhedra;
 mod resting;
 
 type Found = (u64, [f64; 3], [f64; 3], f64);

@@ -4,9 +4,9 @@
 //! tremble, so the ends carry them, each with the distance and the normal that it has by itself; where the crossing is nearer than both ends it is
 //! added by `overlap`.
 
+use super::Touch;
 use super::patch::Patch;
 use super::points::{Point, Points, feature};
-use super::Touch;
 use crate::detect::narrow::vector::{along, dot, sub};
 
 /// Cosine of the angle by which the normal at an end may differ from that of the contact.

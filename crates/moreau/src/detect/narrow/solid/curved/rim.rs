@@ -130,9 +130,9 @@ pub(in crate::detect::narrow::solid) fn rims(a: &Rim, b: &Rim, mut found: impl F
         if before < 0.0 && after >= 0.0 {
             let place = zero(|place| slope(place).0, (part(k), before), (part(k + 1), after));
             let (_, way, tangent) = slope(place);
-            let across = large.radial(along(small.centre, small.radius, out(place))).map_or([0.0; 3], |radial| {
-                cross(tangent, cross(large.outward, radial))
-            });
+            let across = large
+                .radial(along(small.centre, small.radius, out(place)))
+                .map_or([0.0; 3], |radial| cross(tangent, cross(large.outward, radial)));
             // The way has few digits where it is short, what is across both rims where they run alike.
             let is_short = dot(way, way) < dot(across, across) * small.radius * small.radius;
             found(if is_short { across } else { way });

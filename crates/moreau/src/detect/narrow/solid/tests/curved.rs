@@ -47,13 +47,7 @@ impl Faceted for [[f64; 3]; 3] {
     }
 
     fn edges(&self) -> &[Edge] {
-        const {
-            &[
-                Edge { ends: [0, 1], faces: [0, 1] },
-                Edge { ends: [1, 2], faces: [0, 1] },
-                Edge { ends: [2, 0], faces: [0, 1] },
-            ]
-        }
+        const { &[Edge { ends: [0, 1], faces: [0, 1] }, Edge { ends: [1, 2], faces: [0, 1] }, Edge { ends: [2, 0], faces: [0, 1] }] }
     }
 
     fn radius(&self) -> f64 {
@@ -276,12 +270,17 @@ fn a_ball_on_faces_is_a_ball_on_a_box() {
     let mut dice = Pcg64Mcg::seed_from_u64(3);
     for _ in 0..5000 {
         let [a, b] = pair([0, 1], &mut dice);
-        let (Form::Shape(SolidShape::Ball(ball)), Form::Shape(SolidShape::Cuboid(cuboid))) = (&a.form, &b.form) else { unreachable!() };
+        let (Form::Shape(SolidShape::Ball(ball)), Form::Shape(SolidShape::Cuboid(cuboid))) = (&a.form, &b.form) else {
+            unreachable!()
+        };
         let mut found = Vec::new();
         ball_facets::collide((ball, &a.pose), (cuboid, &b.pose), a.size() + b.size(), &mut |f, p, n, g| found.push((f, p, n, g)));
         let right = contacts(&a, &b, a.size() + b.size());
         let size = a.size() + b.size();
         let near = |x: [f64; 3], y: [f64; 3]| (DVec3::from(x) - DVec3::from(y)).length() < 1e-9 * size;
-        assert!(found.len() == 1 && near(found[0].1, right[0].1) && (found[0].3 - right[0].3).abs() < 1e-12 * size, "{found:?} {right:?}");
+        assert!(
+            found.len() == 1 && near(found[0].1, right[0].1) && (found[0].3 - right[0].3).abs() < 1e-12 * size,
+            "{found:?} {right:?}"
+        );
     }
 }

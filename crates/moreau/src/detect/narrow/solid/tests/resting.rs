@@ -59,7 +59,10 @@ fn a_cylinder_over_an_edge_stands_on_what_is_over_the_face() {
     let found = touch(SLAB, at([0.0, 0.0, -1.0], UP), DRUM, at([4.6, 0.0, 2.0], UP), 1e-9);
     let points = on_top(&found, 0.0, 0.0);
     // The edge cuts the rim at y = ±0.8.
-    assert!(points.contains(&[4.0, -0.8]) || points.iter().any(|p| (p[0] - 4.0).abs() + (p[1] + 0.8).abs() < 1e-12), "{points:?}");
+    assert!(
+        points.contains(&[4.0, -0.8]) || points.iter().any(|p| (p[0] - 4.0).abs() + (p[1] + 0.8).abs() < 1e-12),
+        "{points:?}"
+    );
     assert!(points.len() == 4 && points.iter().all(|p| p[0] < 4.0 + 1e-12 && (p[0] - 4.6).hypot(p[1]) < 1.0 + 1e-12));
     // Two caps share a lens from x = 0.2 to 1, with its corners at y = ±0.8.
     let found = contacts(DRUM, at([0.0, 0.0, -2.0], UP), DRUM, at([1.2, 0.0, 2.0], UP), 1e-9);
@@ -86,17 +89,23 @@ fn cylinders_and_capsules_lie_on_both_ends_of_a_line() {
     same(&on_top(&contacts(PILL, low, PILL, high, 1e-9), 0.0, 0.0), &beside);
     same(&on_top(&touch(DRUM, at([0.0, 0.0, -1.0], lying()), PILL, high, 1e-9), 0.0, 0.0), &beside);
     // Lying on the cap of one that stands.
-    same(&on_top(&contacts(DRUM, at([0.0, 0.0, -2.0], UP), DRUM, at([0.0, 0.0, 1.0], lying()), 1e-9), 0.0, 0.0), &[
-        [-1.0, 0.0],
-        [1.0, 0.0],
-    ]);
+    same(
+        &on_top(&contacts(DRUM, at([0.0, 0.0, -2.0], UP), DRUM, at([0.0, 0.0, 1.0], lying()), 1e-9), 0.0, 0.0),
+        &[[-1.0, 0.0], [1.0, 0.0]],
+    );
 }
 
 #[test]
 fn crossed_cylinders_and_capsules_touch_at_one_point() {
     let across = DQuat::from_rotation_z(FRAC_PI_2) * lying();
-    same(&on_top(&contacts(DRUM, at([0.0, 0.3, -1.0], lying()), DRUM, at([0.5, 0.0, 1.0], across), 1e-9), 0.0, 0.0), &[[0.5, 0.3]]);
-    same(&on_top(&contacts(PILL, at([0.0, 0.3, -0.5], lying()), PILL, at([0.5, 0.0, 0.5], across), 1e-9), 0.0, 0.0), &[[0.5, 0.3]]);
+    same(
+        &on_top(&contacts(DRUM, at([0.0, 0.3, -1.0], lying()), DRUM, at([0.5, 0.0, 1.0], across), 1e-9), 0.0, 0.0),
+        &[[0.5, 0.3]],
+    );
+    same(
+        &on_top(&contacts(PILL, at([0.0, 0.3, -0.5], lying()), PILL, at([0.5, 0.0, 0.5], across), 1e-9), 0.0, 0.0),
+        &[[0.5, 0.3]],
+    );
     same(&on_top(&touch(DRUM, at([0.0, 0.3, -1.0], lying()), PILL, at([0.5, 0.0, 0.5], across), 1e-9), 0.0, 0.0), &[[0.5, 0.3]]);
 }
 
@@ -192,7 +201,10 @@ fn a_rolling_cylinder_keeps_its_features() {
         for (other, below) in [(SolidShape::from(HalfSpace), 0.0), (SLAB.into(), -1.0)] {
             let found = touch(other, at([0.0, 0.0, below], UP), DRUM, pose, 1e-9);
             let names: Vec<u64> = found.iter().map(|contact| contact.0 & 0xffff_0000 | (contact.0 >> 15 & 1)).collect();
-            assert!(found.len() == 2 && names[0] != names[1] && found.iter().all(|contact| contact.0 & 0x3fff_7ffe == 0), "{found:?}");
+            assert!(
+                found.len() == 2 && names[0] != names[1] && found.iter().all(|contact| contact.0 & 0x3fff_7ffe == 0),
+                "{found:?}"
+            );
         }
     }
 }
@@ -207,7 +219,10 @@ fn a_curved_body_that_is_nowhere_touches_nothing() {
                 assert!(contacts(curved.clone(), place, other.clone(), at([0.0; 3], UP), 1.0).is_empty(), "{curved:?} {other:?}");
                 // A ball looks the same however it is turned.
                 if other.name() != "ball" || place.position[1].is_nan() {
-                    assert!(contacts(curved.clone(), at([0.0; 3], UP), other.clone(), place, 1.0).is_empty(), "{curved:?} {other:?}");
+                    assert!(
+                        contacts(curved.clone(), at([0.0; 3], UP), other.clone(), place, 1.0).is_empty(),
+                        "{curved:?} {other:?}"
+                    );
                 }
             }
         }
