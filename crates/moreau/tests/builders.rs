@@ -1,5 +1,6 @@
 //! Builders: what they make is what they say, neighbours share their faces, and what should stand stands.
 
+use glam::DVec3;
 use moreau::contacts::Contact;
 use moreau::detect::Detector;
 use moreau::scene::{AnyWorld, Scene};
@@ -64,10 +65,28 @@ fn faces<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>)
     }
     let mut pairs: Vec<(u32, u32)> = contacts.iter().map(|contact| (contact.key.a, contact.key.b)).collect();
     pairs.dedup();
-    // A face has D points or more; an edge or a corner has fewer.
-    let points = |pair: (u32, u32)| contacts.iter().filter(|contact| (contact.key.a, contact.key.b) == pair).count();
-    pairs.retain(|&pair| points(pair) >= D);
+    pairs.retain(|&pair| {
+        let points: Vec<[f64; D]> = contacts.iter().filter(|c| (c.key.a, c.key.b) == pair).map(|c| c.point).collect();
+        size(&points) > 1e-6
+    });
     pairs
+}
+
+/// The greatest length between some points in the plane, in space the greatest area between three: nothing at a corner or along an edge.
+fn size<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let way = |p: &[f64; D], q: &[f64; D]| -> [f64; 3] { std::array::from_fn(|k| if k < D { q[k] - p[k] } else { 0.0 }) };
+    let mut largest = 0.0_f64;
+    for p in points {
+        for q in points {
+            let u = DVec3::from(way(p, q));
+            largest = if D == 2 {
+                largest.max(u.length())
+            } else {
+                points.iter().fold(largest, |most, r| most.max(u.cross(way(p, r).into()).length()))
+            };
+        }
+    }
+    largest
 }
 
 fn close(found: f64, expected: f64, part: f64) {
