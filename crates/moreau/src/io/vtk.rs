@@ -29,6 +29,7 @@
 
 mod appended;
 mod array;
+mod cells;
 mod check;
 mod error;
 mod file;
@@ -38,6 +39,7 @@ mod series;
 mod tests;
 
 pub use array::{Array, Values};
+pub use cells::Cells;
 pub use error::VtkError;
 pub use series::Series;
 
@@ -49,7 +51,7 @@ use appended::Appended;
 /// Points in space, the cells on them and the arrays on both, at one time.
 ///
 /// Two dimensions are written as z = 0. The cells are numbered as VTK numbers them: the vertices first (one for each
-/// point, in order), then the polygons; `cell_data` follows that order.
+/// point, in order), then the lines, then the polygons; `cell_data` follows that order.
 #[derive(Clone, Debug)]
 pub struct PolyData<'a> {
     /// The positions.
@@ -57,8 +59,10 @@ pub struct PolyData<'a> {
     /// Whether each point is also a vertex cell. ParaView draws no point that belongs to no cell, so this is on by
     /// default; turn it off where polygons use all the points.
     pub verts: bool,
-    /// Polygons as lists of indices into `points`, in order around the polygon.
-    pub polys: &'a [Vec<usize>],
+    /// Lines through `points`, by their indices.
+    pub lines: &'a Cells,
+    /// Polygons, by the indices of their corners.
+    pub polys: &'a Cells,
     /// Arrays with one tuple a point.
     pub point_data: Vec<Array<'a>>,
     /// Arrays with one tuple a cell.
@@ -69,7 +73,8 @@ pub struct PolyData<'a> {
 
 impl Default for PolyData<'_> {
     fn default() -> Self {
-        Self { points: &[], verts: true, polys: &[], point_data: Vec::new(), cell_data: Vec::new(), time: 0.0 }
+        let (lines, polys) = (&cells::NONE, &cells::NONE);
+        Self { points: &[], verts: true, lines, polys, point_data: Vec::new(), cell_data: Vec::new(), time: 0.0 }
     }
 }
 
@@ -77,6 +82,11 @@ impl PolyData<'_> {
     /// The number of vertex cells.
     fn vert_count(&self) -> usize {
         if self.verts { self.points.len() } else { 0 }
+    }
+
+    /// The number of cells of all kinds.
+    fn cell_count(&self) -> usize {
+        self.vert_count() + self.lines.len() + self.polys.len()
     }
 }
 
@@ -124,8 +134,10 @@ impl Writer {
         array(x, body, &Array::scalars("TimeValue", &time), " NumberOfTuples=\"1\"")?;
         *x += "    </FieldData>\n";
 
-        let (points, verts, polys) = (data.points.len(), data.vert_count(), data.polys.len());
-        let _ = writeln!(x, "    <Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfPolys=\"{polys}\">");
+        let (points, verts) = (data.points.len(), data.vert_count());
+        let (lines, polys) = (data.lines.len(), data.polys.len());
+        let _ = write!(x, "    <Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\"");
+        let _ = writeln!(x, " NumberOfLines=\"{lines}\" NumberOfPolys=\"{polys}\">");
         for (tag, arrays) in [("PointData", &data.point_data), ("CellData", &data.cell_data)] {
             let _ = writeln!(x, "      <{tag}>");
             for a in arrays {
@@ -137,11 +149,9 @@ impl Writer {
         array(x, body, &Array::vectors("Points", data.points), "")?;
         *x += "      </Points>\n";
         cells(x, body, "Verts", 0..verts, 1..=verts)?;
-        let ends = data.polys.iter().scan(0, |end, polygon| {
-            *end += polygon.len();
-            Some(*end)
-        });
-        cells(x, body, "Polys", data.polys.iter().flatten().copied(), ends)?;
+        for (tag, of) in [("Lines", data.lines), ("Polys", data.polys)] {
+            cells(x, body, tag, of.points().iter().copied(), of.ends().iter().copied())?;
+        }
         *x += "    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n   _";
         Ok(())
     }

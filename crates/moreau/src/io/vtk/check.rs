@@ -2,19 +2,23 @@
 
 use std::path::Path;
 
-use super::{Array, PolyData, VtkError};
+use super::{Array, Cells, PolyData, VtkError};
 
 /// Whether the parts of `data` fit together.
 pub(super) fn poly_data(path: &Path, data: &PolyData) -> Result<(), VtkError> {
     time(path, data.time)?;
     let points = data.points.len();
-    for (polygon, corners) in data.polys.iter().enumerate() {
-        if let Some(&index) = corners.iter().find(|&&i| i >= points) {
-            return Err(VtkError::Index { path: path.to_owned(), polygon, index, points });
-        }
-    }
+    indices(path, "line", data.lines, points)?;
+    indices(path, "polygon", data.polys, points)?;
     arrays(path, "point", &data.point_data, points)?;
-    arrays(path, "cell", &data.cell_data, data.vert_count() + data.polys.len())
+    arrays(path, "cell", &data.cell_data, data.cell_count())
+}
+
+/// Whether cells name points that are there.
+fn indices(path: &Path, kind: &'static str, cells: &Cells, points: usize) -> Result<(), VtkError> {
+    let Some(place) = cells.points().iter().position(|&index| index >= points) else { return Ok(()) };
+    let cell = cells.ends().partition_point(|&end| end <= place);
+    Err(VtkError::Index { path: path.to_owned(), kind, cell, index: cells.points()[place], points })
 }
 
 /// Whether a time can stand in a file.

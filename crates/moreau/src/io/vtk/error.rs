@@ -34,13 +34,15 @@ pub enum VtkError {
         /// The numbers of one tuple; none is never right.
         components: usize,
     },
-    /// A polygon names a point that is not there.
-    #[error("cannot write {}: polygon {polygon} names point {index}, but there are {points} points", path.display())]
+    /// A line or polygon names a point that is not there.
+    #[error("cannot write {}: {kind} {cell} names point {index}, but there are {points} points", path.display())]
     Index {
         /// The file that was to be written.
         path: PathBuf,
-        /// The polygon, counted from 0.
-        polygon: usize,
+        /// `line` or `polygon`.
+        kind: &'static str,
+        /// Which one, counted from 0.
+        cell: usize,
         /// The index that it names.
         index: usize,
         /// The points of the data set.

@@ -7,7 +7,7 @@ use std::path::Path;
 use flate2::read::ZlibDecoder;
 
 use super::appended::BLOCK;
-use super::{Array, PolyData, Series, Values, VtkError, Writer, write};
+use super::{Array, Cells, PolyData, Series, Values, VtkError, Writer, write};
 
 /// A file taken apart: its XML head, and the appended bytes behind the underscore.
 struct Parts {
@@ -65,7 +65,7 @@ fn the_head_says_what_a_reader_needs() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.vtp");
     let points = [[0.0; 3], [1.0; 3], [2.0; 3]];
-    let polys = [vec![0, 1, 2]];
+    let polys = Cells::from_iter([[0, 1, 2]]);
     let cell_data = vec![Array::scalars("kind", &[0_u8, 0, 0, 1])];
     write(&path, &PolyData { points: &points, polys: &polys, cell_data, ..PolyData::default() }).unwrap();
     let parts = Parts::read(&path);
@@ -73,7 +73,7 @@ fn the_head_says_what_a_reader_needs() {
     for wanted in ["PolyData", "LittleEndian", "header_type=\"UInt64\"", "compressor=\"vtkZLibDataCompressor\""] {
         assert!(root.contains(wanted), "{root}");
     }
-    assert!(parts.line("<Piece").contains("NumberOfPoints=\"3\" NumberOfVerts=\"3\" NumberOfPolys=\"1\""));
+    assert!(parts.line("<Piece").contains("NumberOfPoints=\"3\" NumberOfVerts=\"3\" NumberOfLines=\"0\" NumberOfPolys=\"1\""));
     assert!(parts.line("TimeValue").contains("NumberOfTuples=\"1\""));
     assert!(parts.line("\"Points\"").contains("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\""));
     assert!(parts.line("\"kind\"").contains("type=\"UInt8\""));
@@ -132,14 +132,18 @@ fn a_writer_makes_of_each_frame_the_file_that_it_would_be_alone() {
 }
 
 #[test]
-fn polygons_are_lists_with_ends() {
+fn lines_and_polygons_are_lists_with_ends() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.vtp");
     let points = [[0.0; 3]; 5];
-    let polys = [vec![0, 1, 2], vec![1, 4, 3, 2]];
-    write(&path, &PolyData { points: &points, verts: false, polys: &polys, ..PolyData::default() }).unwrap();
+    let lines = Cells::from_iter([vec![4, 0], vec![3, 2, 1], vec![0, 2]]);
+    let polys = Cells::from_iter([vec![0, 1, 2], vec![1, 4, 3, 2]]);
+    let data = PolyData { points: &points, verts: false, lines: &lines, polys: &polys, ..PolyData::default() };
+    write(&path, &PolyData { cell_data: vec![Array::scalars("kind", &[0_u8, 1, 2, 3, 4])], ..data.clone() }).unwrap();
     let parts = Parts::read(&path);
-    assert!(parts.line("<Piece").contains("NumberOfVerts=\"0\" NumberOfPolys=\"2\""));
+    assert!(parts.line("<Piece").contains("NumberOfVerts=\"0\" NumberOfLines=\"3\" NumberOfPolys=\"2\""));
+    assert_eq!(parts.i64s("Lines", "connectivity"), [4, 0, 3, 2, 1, 0, 2]);
+    assert_eq!(parts.i64s("Lines", "offsets"), [2, 5, 7]);
     assert_eq!(parts.i64s("Polys", "connectivity"), [0, 1, 2, 1, 4, 3, 2]);
     assert_eq!(parts.i64s("Polys", "offsets"), [3, 7]);
     assert!(parts.i64s("Verts", "connectivity").is_empty());
@@ -152,7 +156,7 @@ fn nothing_is_a_valid_data_set() {
     let point_data = vec![Array::vectors("normal", &[]), Array::scalars("status", &[0_i32; 0])];
     write(&path, &PolyData { point_data, time: 2.0, ..PolyData::default() }).unwrap();
     let parts = Parts::read(&path);
-    assert!(parts.line("<Piece").contains("NumberOfPoints=\"0\" NumberOfVerts=\"0\" NumberOfPolys=\"0\""));
+    assert!(parts.line("<Piece").contains("NumberOfPoints=\"0\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfPolys=\"0\""));
     assert!(parts.f64s("PointData", "normal").is_empty());
     assert!(parts.bytes("PointData", "status").is_empty());
     assert_eq!(parts.f64s("FieldData", "TimeValue"), [2.0]);
@@ -194,8 +198,11 @@ fn what_does_not_fit_is_refused_and_leaves_the_old_file() {
         let array = Array { name: "v", components, values: Values::F64(&[0.0, 0.0]) };
         assert!(matches!(refused(&PolyData { point_data: vec![array], ..base.clone() }), VtkError::Length { .. }));
     }
-    let index = refused(&PolyData { polys: &[vec![0, 1], vec![1, 2]], ..base.clone() });
-    assert!(matches!(index, VtkError::Index { polygon: 1, index: 2, points: 2, .. }), "{index}");
+    let cells = Cells::from_iter([vec![0, 1, 0], vec![1, 0, 2]]);
+    let index = refused(&PolyData { polys: &cells, ..base.clone() });
+    assert!(matches!(index, VtkError::Index { kind: "polygon", cell: 1, index: 2, points: 2, .. }), "{index}");
+    let index = refused(&PolyData { lines: &cells, ..base.clone() });
+    assert!(index.to_string().contains("line 1 names point 2"), "{index}");
     assert!(matches!(refused(&PolyData { time: f64::NAN, ..base.clone() }), VtkError::Time { .. }));
 
     assert_eq!(fs::read(&path).unwrap(), before);
