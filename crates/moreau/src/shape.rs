@@ -43,6 +43,10 @@ macro_rules! shapes {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::is_convex(shape),)+ }
             }
 
+            fn polygons(&self) -> Polygons<$D> {
+                match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::polygons(shape),)+ }
+            }
+
             fn mass(&self, density: f64) -> [f64; $N] {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::mass(shape, density),)+ }
             }
@@ -70,10 +74,12 @@ macro_rules! shapes {
 
 mod error;
 pub mod plane;
+mod polygons;
 pub mod solid;
 
 pub use error::ShapeError;
 pub use plane::PlaneShape;
+pub use polygons::Polygons;
 pub use solid::SolidShape;
 
 /// Something and where it is.
@@ -99,6 +105,11 @@ pub trait Figure<S: Space<D, N>, const D: usize, const N: usize> {
         true
     }
 
+    /// See [`Shape::polygons`].
+    fn polygons(&self) -> Polygons<D> {
+        Polygons::default()
+    }
+
     /// See [`Shape::mass`].
     fn mass(&self, density: f64) -> [f64; N];
 }
@@ -120,6 +131,10 @@ where
 
     /// Whether the straight way between any two of its points lies inside; of a compound it is not asked.
     fn is_convex(&self) -> bool;
+
+    /// Its boundary as polygons, to be drawn: those of a bounded shape enclose it, or nearly where it is curved; an unbounded one may have
+    /// none.
+    fn polygons(&self) -> Polygons<D>;
 
     /// Diagonal of the mass matrix at this density: the mass `D` times, then the principal moments; infinite for an unbounded
     /// one.

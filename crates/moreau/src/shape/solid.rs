@@ -9,6 +9,7 @@ mod faceted;
 mod half_space;
 mod inertia;
 mod polyhedron;
+pub(crate) mod revolved;
 
 pub use ball::Ball;
 pub use capsule::Capsule;
@@ -20,7 +21,7 @@ pub use half_space::HalfSpace;
 pub use inertia::Moments;
 pub use polyhedron::Polyhedron;
 
-use super::{Figure, Placed, Shape};
+use super::{Figure, Placed, Polygons, Shape};
 use crate::detect::narrow::solid as pairs;
 use crate::space::{Solid, Space};
 use moreau_solve::Row;

@@ -1,5 +1,6 @@
 //! The disk.
 
+use crate::shape::polygons::{Polygons, SIDES};
 use crate::shape::{Figure, ShapeError, error::length};
 use crate::space::Plane;
 use std::f64::consts::PI;
@@ -27,6 +28,11 @@ impl Figure<Plane, 2, 3> for Disk {
     #[inline]
     fn is_round(&self) -> bool {
         true
+    }
+
+    fn polygons(&self) -> Polygons<2> {
+        let angle = |side: usize| 2.0 * PI * side as f64 / SIDES as f64;
+        Polygons::of_loop((0..SIDES).map(|side| [self.radius * angle(side).cos(), self.radius * angle(side).sin()]))
     }
 
     fn mass(&self, density: f64) -> [f64; 3] {

@@ -2,7 +2,7 @@
 
 use super::boundary::{Side, check_convex, check_points, check_simple, cross, dot, side, signed_area, sub, sum};
 use crate::shape::error::length;
-use crate::shape::{Figure, ShapeError};
+use crate::shape::{Figure, Polygons, ShapeError};
 use crate::space::Plane;
 use std::sync::Arc;
 
@@ -76,6 +76,10 @@ impl Figure<Plane, 2, 3> for Polygon {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.bounding_radius)
+    }
+
+    fn polygons(&self) -> Polygons<2> {
+        Polygons::of_loop(self.vertices())
     }
 
     fn mass(&self, density: f64) -> [f64; 3] {

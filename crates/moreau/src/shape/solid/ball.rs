@@ -1,6 +1,7 @@
 //! The ball.
 
-use crate::shape::{Figure, ShapeError, error::length};
+use super::revolved::{arc, revolved};
+use crate::shape::{Figure, Polygons, ShapeError, error::length};
 use crate::space::Solid;
 use std::f64::consts::PI;
 
@@ -27,6 +28,10 @@ impl Figure<Solid, 3, 6> for Ball {
     #[inline]
     fn is_round(&self) -> bool {
         true
+    }
+
+    fn polygons(&self) -> Polygons<3> {
+        revolved(arc(self.radius, 0.0, 0..=12))
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {

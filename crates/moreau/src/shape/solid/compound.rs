@@ -2,7 +2,7 @@
 
 use super::SolidShape;
 use super::inertia::Moments;
-use crate::shape::{Figure, Shape, ShapeError};
+use crate::shape::{Figure, Polygons, Shape, ShapeError};
 use crate::space::{Pose, Solid};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
@@ -86,6 +86,13 @@ impl Figure<Solid, 3, 6> for Compound {
 
     fn is_convex(&self) -> bool {
         false
+    }
+
+    /// Those of all parts, also where they lie inside others.
+    fn polygons(&self) -> Polygons<3> {
+        let mut all = Polygons::default();
+        self.parts.iter().for_each(|part| all.add::<Solid, 6>(&part.shape.polygons(), &part.pose));
+        all
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {

@@ -1,7 +1,7 @@
 //! The box.
 
-use super::{Edge, Faceted};
-use crate::shape::{Figure, ShapeError, error::length};
+use super::{Edge, Faceted, faceted};
+use crate::shape::{Figure, Polygons, ShapeError, error::length};
 use crate::space::Solid;
 
 /// A box around its centre, its edges along the body's axes.
@@ -33,6 +33,10 @@ impl Figure<Solid, 3, 6> for Cuboid {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.radius())
+    }
+
+    fn polygons(&self) -> Polygons<3> {
+        faceted::polygons(self)
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {

@@ -1,5 +1,7 @@
 //! Convex bodies with flat faces, as contacts see them.
 
+use crate::shape::Polygons;
+
 /// A convex polyhedron around its centre of mass, in its body's frame.
 pub trait Faceted {
     /// How many vertices it has.
@@ -16,6 +18,13 @@ pub trait Faceted {
     fn edges(&self) -> &[Edge];
     /// Radius of the ball around the centre of mass that holds it, m.
     fn radius(&self) -> f64;
+}
+
+/// Its faces.
+pub(super) fn polygons(body: &impl Faceted) -> Polygons<3> {
+    let mut all = Polygons::on((0..body.vertices()).map(|i| body.vertex(i)).collect());
+    (0..body.faces()).for_each(|i| all.push(body.face(i).iter().map(|&corner| usize::from(corner))));
+    all
 }
 
 /// An edge, where two faces meet.

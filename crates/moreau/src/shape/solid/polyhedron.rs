@@ -5,8 +5,8 @@ mod hull;
 mod tests;
 
 use super::inertia::Moments;
-use super::{Edge, Faceted};
-use crate::shape::{Figure, ShapeError};
+use super::{Edge, Faceted, faceted};
+use crate::shape::{Figure, Polygons, ShapeError};
 use crate::space::{Pose, Solid, Space};
 use glam::DQuat;
 use std::collections::BTreeMap;
@@ -116,6 +116,10 @@ impl Figure<Solid, 3, 6> for Polyhedron {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.form.radius)
+    }
+
+    fn polygons(&self) -> Polygons<3> {
+        faceted::polygons(self)
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {
