@@ -4,6 +4,7 @@
 
 mod background;
 mod failed;
+pub mod interfaces;
 mod steps;
 mod summary;
 mod vtk;
@@ -22,7 +23,7 @@ use std::path::PathBuf;
 /// The table of outputs.
 pub const OUTPUTS: &[Row] = &[
     Row { name: "steps", about: "steps.csv: a row a step with sweeps, residuals, penetration, energies, seconds" },
-    Row { name: "vtk", about: "vtk/: bodies and contacts for ParaView, binary and compressed, with .pvd collections" },
+    Row { name: "vtk", about: "vtk/: bodies, contacts, shapes, interfaces for ParaView, compressed, with .pvd collections" },
 ];
 
 /// What an observer sees after a step; `record` is `None` for the state at the start.

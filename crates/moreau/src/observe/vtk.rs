@@ -1,10 +1,13 @@
-//! `vtk/`: bodies and contacts for ParaView, one pair of files a frame and two collections with times.
+//! `vtk/`: bodies and contacts for ParaView, one pair of files a frame and two collections with times; where some body is neither a ball
+//! nor a disk, also shapes and interfaces.
 //!
 //! A frame is copied out of the world (`snapshot.rs`) and handed to a thread that compresses and writes it (`files.rs`) while the
 //! run goes on. The run waits only where frames come faster than they can be written, and at its end. The collections name each
 //! frame within a second or so of its being written, and all of them at the end.
 
 mod files;
+mod interfaces;
+mod shapes;
 mod snapshot;
 #[cfg(test)]
 mod tests;
@@ -13,8 +16,10 @@ use super::background::Background;
 use super::{Frame, Observer, OutputError};
 use crate::space::Space;
 use files::Files;
+use shapes::Drawing;
 use snapshot::Snapshot;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Writes every n-th step, on a thread of its own.
 ///
@@ -23,6 +28,7 @@ use std::path::Path;
 pub struct VtkOutput {
     every: u64,
     files: Background<Snapshot>,
+    drawing: Arc<Drawing>,
 }
 
 impl VtkOutput {
@@ -33,7 +39,7 @@ impl VtkOutput {
     pub fn create(folder: &Path, every: u64) -> Result<Self, OutputError> {
         std::fs::create_dir_all(folder).map_err(OutputError::io(folder))?;
         let files = Background::start(Files::new(folder)).map_err(OutputError::io(folder))?;
-        Ok(Self { every: every.max(1), files })
+        Ok(Self { every: every.max(1), files, drawing: Arc::default() })
     }
 }
 
@@ -43,7 +49,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Observer<S, D, N> for VtkOu
             return self.files.check();
         }
         let mut snapshot = self.files.used().unwrap_or_default();
-        snapshot.take(frame);
+        snapshot.take(frame, &mut self.drawing);
         self.files.give(snapshot)
     }
 

@@ -115,6 +115,7 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     work.after.clone_from(&work.free);
     work.systems.get(kind).deposit(&world.bodies, &work.middle, &mut work.after);
     note(record, work, report);
+    record.h = h;
     work.ledger.book(&world.bodies, &world.gravity, [&work.free, &work.after], &work.contacts, (h, theta));
     work.ledger.book_joints(&work.joints.blocks);
     // 11 q⁺ = q_m + h θ v⁺

@@ -44,6 +44,8 @@ pub struct StepRecord {
     pub step: u64,
     /// Time at its end, s.
     pub time: f64,
+    /// Length of its last part, s: that of the step, unless it was halved. The contacts that it leaves are those of this part.
+    pub h: f64,
     /// Number of bodies that are there.
     pub bodies: usize,
     /// Contacts that took part.

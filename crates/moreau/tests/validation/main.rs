@@ -6,6 +6,7 @@ mod chain;
 mod cylinders;
 mod hexagonal;
 mod impacts;
+mod interfaces;
 mod reactions;
 mod rocking;
 mod rolling;

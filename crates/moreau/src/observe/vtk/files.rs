@@ -14,13 +14,17 @@ const SAVED_EVERY: Duration = Duration::from_secs(1);
 pub(super) struct Files {
     bodies: Kind,
     contacts: Kind,
+    shapes: Kind,
+    interfaces: Kind,
     saved: Option<Instant>,
 }
 
 impl Files {
     /// Those of `folder`.
     pub(super) fn new(folder: &Path) -> Self {
-        Self { bodies: Kind::new(folder, "bodies"), contacts: Kind::new(folder, "contacts"), saved: None }
+        let [bodies, contacts, shapes, interfaces] =
+            ["bodies", "contacts", "shapes", "interfaces"].map(|name| Kind::new(folder, name));
+        Self { bodies, contacts, shapes, interfaces, saved: None }
     }
 }
 
@@ -28,6 +32,11 @@ impl background::Writer<Snapshot> for Files {
     fn write(&mut self, frame: &Snapshot) -> Result<(), OutputError> {
         self.bodies.write(frame.step, &frame.bodies())?;
         self.contacts.write(frame.step, &frame.contacts())?;
+        // Where all bodies are points with a radius these two would say nothing. Once begun they go on, lest an old frame stay in sight.
+        if frame.has_shapes() || !self.shapes.series.is_empty() {
+            self.shapes.write(frame.step, &frame.shapes())?;
+            self.interfaces.write(frame.step, &frame.interfaces())?;
+        }
         if self.saved.is_none_or(|saved| saved.elapsed() >= SAVED_EVERY) {
             self.catch_up()?;
         }
@@ -37,7 +46,9 @@ impl background::Writer<Snapshot> for Files {
     fn catch_up(&mut self) -> Result<(), OutputError> {
         self.saved = Some(Instant::now());
         self.bodies.save()?;
-        self.contacts.save()
+        self.contacts.save()?;
+        self.shapes.save()?;
+        self.interfaces.save()
     }
 }
 

@@ -1,12 +1,16 @@
 //! What a frame's files say, apart from the world that it was taken of.
 
+use super::interfaces::Interfaces;
+use super::shapes::{Drawing, Shapes};
 use crate::io::vtk::{Array, PolyData};
 use crate::observe::Frame;
+use crate::observe::interfaces::in_world;
 use crate::shape::Shape;
 use crate::space::Space;
 use crate::step::Localised;
 use moreau_solve::Cone;
 use moreau_solve::block::tangent_norm;
+use std::sync::Arc;
 
 /// The arrays of one frame.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +21,8 @@ pub(super) struct Snapshot {
     pub(super) time: f64,
     bodies: Bodies,
     contacts: Contacts,
+    shapes: Shapes,
+    interfaces: Interfaces,
 }
 
 /// A row a body.
@@ -56,11 +62,21 @@ enum ContactStatus {
 }
 
 impl Snapshot {
-    /// Takes over what the files say of `frame`.
-    pub(super) fn take<S: Space<D, N>, const D: usize, const N: usize>(&mut self, frame: &Frame<'_, S, D, N>) {
+    /// Takes over what the files say of `frame`; `drawing` is that of the frame before.
+    pub(super) fn take<S: Space<D, N>, const D: usize, const N: usize>(
+        &mut self,
+        frame: &Frame<'_, S, D, N>,
+        drawing: &mut Arc<Drawing>,
+    ) {
         (self.step, self.time) = (frame.world.steps, frame.world.time);
         self.take_bodies(frame);
         self.take_contacts(frame.contacts);
+        self.shapes.take(&frame.world.bodies, drawing);
+        if self.has_shapes() {
+            self.interfaces.take(frame);
+        } else {
+            self.interfaces = Interfaces::default();
+        }
     }
 
     fn take_bodies<S: Space<D, N>, const D: usize, const N: usize>(&mut self, frame: &Frame<'_, S, D, N>) {
@@ -119,22 +135,32 @@ impl Snapshot {
         ];
         PolyData { points, point_data, time: self.time, ..PolyData::default() }
     }
+
+    /// Whether there is a body that is more than a point with a radius.
+    pub(super) fn has_shapes(&self) -> bool {
+        !self.shapes.is_empty()
+    }
+
+    /// The file of shapes.
+    pub(super) fn shapes(&self) -> PolyData<'_> {
+        self.shapes.data(self.time)
+    }
+
+    /// The file of interfaces.
+    pub(super) fn interfaces(&self) -> PolyData<'_> {
+        self.interfaces.data(self.time)
+    }
 }
 
 /// Puts `values` in place of what is in `list`, in the same memory.
-fn refill<T>(list: &mut Vec<T>, values: impl Iterator<Item = T>) {
+pub(super) fn refill<T>(list: &mut Vec<T>, values: impl Iterator<Item = T>) {
     list.clear();
     list.extend(values);
 }
 
 /// Two or three numbers as three.
-fn space_vector(v: &[f64]) -> [f64; 3] {
+pub(super) fn space_vector(v: &[f64]) -> [f64; 3] {
     std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0))
-}
-
-/// The impulse on body `b` in the world.
-fn in_world<const D: usize>(c: &Localised<D>) -> [f64; D] {
-    std::array::from_fn(|k| (0..D).map(|i| c.frame[i][k] * c.impulse[i]).sum())
 }
 
 fn status<const D: usize>(c: &Localised<D>) -> ContactStatus {

@@ -13,6 +13,7 @@ use crate::world::World;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
@@ -35,8 +36,21 @@ position = [0.0, 0.0, 0.101]
 velocity = [1.0, 0.0, 0.0]
 "#;
 
+/// A box falls beside the ball.
+const BOX: &str = r#"
+[[bodies]]
+shape.box = { size = [0.1, 0.2, 0.3] }
+material = "stone"
+position = [1.0, 0.0, 0.151]
+velocity = [1.0, 0.0, 0.0]
+"#;
+
 fn world() -> World<Solid, 3, 6> {
-    let scene = Scene::parse_with(DROP, "drop.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    built(DROP)
+}
+
+fn built(text: &str) -> World<Solid, 3, 6> {
+    let scene = Scene::parse_with(text, "drop.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
     match scene.build(u64::MAX).unwrap_or_else(|error| panic!("{error}")) {
         AnyWorld::Solid(world) => world,
         AnyWorld::Plane(_) => panic!("of the plane"),
@@ -55,7 +69,8 @@ struct Direct(Files);
 impl Observer<Solid, 3, 6> for Direct {
     fn see(&mut self, frame: &Frame<'_, Solid, 3, 6>) -> Result<(), OutputError> {
         let mut snapshot = Snapshot::default();
-        snapshot.take(frame);
+        // Its drawing is made anew each time.
+        snapshot.take(frame, &mut Arc::default());
         self.0.write(&snapshot)
     }
 
@@ -66,14 +81,17 @@ impl Observer<Solid, 3, 6> for Direct {
 
 #[test]
 fn files_are_those_of_a_run_that_waits_for_them() {
-    let (behind, direct) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let mut observers: [Box<dyn Observer<Solid, 3, 6>>; 2] =
-        [Box::new(VtkOutput::create(behind.path(), 1).unwrap()), Box::new(Direct(Files::new(direct.path())))];
-    run(&mut world(), &mut Workspace::default(), 30, &mut observers, &AtomicBool::new(false), |_| {}).unwrap();
-    // Without a drop: all must be there when the run is over.
-    let (behind, direct) = (all(behind.path()), all(direct.path()));
-    assert_eq!(behind.len(), 2 * 31 + 2);
-    assert!(behind == direct, "{:?} and {:?}", behind.keys(), direct.keys());
+    // A ball has no polygons, so the first scene has neither shapes nor interfaces.
+    for (text, kinds) in [(DROP.to_owned(), 2), (DROP.to_owned() + BOX, 4)] {
+        let (behind, direct) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let mut observers: [Box<dyn Observer<Solid, 3, 6>>; 2] =
+            [Box::new(VtkOutput::create(behind.path(), 1).unwrap()), Box::new(Direct(Files::new(direct.path())))];
+        run(&mut built(&text), &mut Workspace::default(), 30, &mut observers, &AtomicBool::new(false), |_| {}).unwrap();
+        // Without a drop: all must be there when the run is over.
+        let (behind, direct) = (all(behind.path()), all(direct.path()));
+        assert_eq!(behind.len(), kinds * 31 + kinds);
+        assert!(behind == direct, "{:?} and {:?}", behind.keys(), direct.keys());
+    }
 }
 
 #[test]
