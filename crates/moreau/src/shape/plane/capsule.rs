@@ -1,7 +1,8 @@
 //! The capsule: a rectangle with a half-disk at each end.
 
 use super::boundary::{Side, side};
-use crate::shape::{Figure, ShapeError, error::length};
+use crate::shape::polygons::SIDES;
+use crate::shape::{Figure, Polygons, ShapeError, error::length};
 use crate::space::Plane;
 use std::f64::consts::PI;
 
@@ -56,6 +57,16 @@ impl Figure<Plane, 2, 3> for Capsule {
 
     /// A = 2 r l + π r² and, the centroid of a half-disk being 4 r / (3 π) beyond its diameter,
     /// ∫ |x|² dA = r l³ / 6 + 2 r³ l / 3 + π r⁴ / 2 + 4 r³ l / 3 + π r² l² / 4.
+    fn polygons(&self) -> Polygons<2> {
+        // Half of the sides about each end, from below the right one on.
+        let half = SIDES / 2;
+        Polygons::of_loop((0..2 * (half + 1)).map(|i| {
+            let right = i <= half;
+            let angle = PI * ((i - usize::from(!right)) as f64 / half as f64 - 0.5);
+            [if right { 0.5 } else { -0.5 } * self.length + self.radius * angle.cos(), self.radius * angle.sin()]
+        }))
+    }
+
     fn mass(&self, density: f64) -> [f64; 3] {
         let (r, l) = (self.radius, self.length);
         let mass = density * (2.0 * r * l + PI * r * r);

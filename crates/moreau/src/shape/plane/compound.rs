@@ -2,7 +2,7 @@
 
 use super::PlaneShape;
 use super::boundary::dot;
-use crate::shape::{Figure, Shape, ShapeError};
+use crate::shape::{Figure, Polygons, Shape, ShapeError};
 use crate::space::{Plane, Pose, Space};
 use std::sync::Arc;
 
@@ -88,6 +88,12 @@ impl Figure<Plane, 2, 3> for Compound {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.bounding_radius)
+    }
+
+    fn polygons(&self) -> Polygons<2> {
+        let mut all = Polygons::default();
+        self.parts.iter().for_each(|part| all.add::<Plane, 3>(&part.shape.polygons(), &part.pose));
+        all
     }
 
     fn mass(&self, density: f64) -> [f64; 3] {

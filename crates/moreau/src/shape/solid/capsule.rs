@@ -1,6 +1,7 @@
 //! The capsule.
 
-use crate::shape::{Figure, ShapeError, error::length};
+use super::revolved::{arc, revolved};
+use crate::shape::{Figure, Polygons, ShapeError, error::length};
 use crate::space::Solid;
 use std::f64::consts::PI;
 
@@ -32,6 +33,10 @@ impl Figure<Solid, 3, 6> for Capsule {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.half + self.radius)
+    }
+
+    fn polygons(&self) -> Polygons<3> {
+        revolved(arc(self.radius, -self.half, 0..=6).chain(arc(self.radius, self.half, 6..=12)))
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {

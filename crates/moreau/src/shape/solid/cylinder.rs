@@ -1,6 +1,7 @@
 //! The cylinder.
 
-use crate::shape::{Figure, ShapeError, error::length};
+use super::revolved::revolved;
+use crate::shape::{Figure, Polygons, ShapeError, error::length};
 use crate::space::Solid;
 use std::f64::consts::PI;
 
@@ -25,6 +26,10 @@ impl Figure<Solid, 3, 6> for Cylinder {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some((self.radius * self.radius + self.half * self.half).sqrt())
+    }
+
+    fn polygons(&self) -> Polygons<3> {
+        revolved([[self.radius, -self.half], [self.radius, self.half]])
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {
