@@ -51,6 +51,6 @@ macro_rules! pairs {
 mod common;
 pub(crate) mod plane;
 pub(crate) mod solid;
-mod vector;
+pub(crate) mod vector;
 
 pub(super) use common::two_round;

@@ -1,0 +1,57 @@
+//! Points that are one.
+
+use super::Mesh;
+use super::vector::{dot, sub};
+use std::collections::HashMap;
+
+/// See [`Mesh::merged`]. Cells as wide as the tolerance hold the points that stay; one of the 27 around a point holds what is near it. The
+/// map is only asked for keys, so its order reaches nothing. A corner that names no point goes on doing so.
+pub(super) fn merged(mesh: &Mesh, tolerance: f64) -> Mesh {
+    let mut points: Vec<[f64; 3]> = Vec::new();
+    let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
+    let mut index = Vec::with_capacity(mesh.points.len());
+    for &point in &mesh.points {
+        let near = if tolerance > 0.0 {
+            neighbourhood(cell(point, tolerance))
+                .filter_map(|key| cells.get(&key))
+                .flatten()
+                .copied()
+                .filter(|&i| square(points[i as usize], point) <= tolerance * tolerance)
+                .min()
+        } else {
+            cells.get(&bits(point)).and_then(|same| same.first().copied())
+        };
+        index.push(near.unwrap_or_else(|| {
+            let key = if tolerance > 0.0 { cell(point, tolerance) } else { bits(point) };
+            points.push(point);
+            let new = (points.len() - 1) as u32;
+            cells.entry(key).or_default().push(new);
+            new
+        }));
+    }
+    let triangles = mesh.triangles.iter().map(|corners| corners.map(|i| index.get(i as usize).copied().unwrap_or(i)));
+    let triangles = triangles.filter(|&[a, b, c]| a != b && b != c && c != a).collect();
+    Mesh { points, triangles }
+}
+
+/// Minus zero is zero.
+fn bits(point: [f64; 3]) -> [u64; 3] {
+    point.map(|x| (x + 0.0).to_bits())
+}
+
+/// The cell of a point; far out, where cells are narrower than the spacing of numbers, neighbours are no longer told apart.
+fn cell(point: [f64; 3], width: f64) -> [u64; 3] {
+    point.map(|x| (x / width).floor() as i64 as u64)
+}
+
+fn neighbourhood([x, y, z]: [u64; 3]) -> impl Iterator<Item = [u64; 3]> {
+    let beside = |a: u64| [a.wrapping_sub(1), a, a.wrapping_add(1)];
+    beside(x)
+        .into_iter()
+        .flat_map(move |x| beside(y).into_iter().flat_map(move |y| beside(z).into_iter().map(move |z| [x, y, z])))
+}
+
+fn square(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let between = sub(a, b);
+    dot(between, between)
+}
