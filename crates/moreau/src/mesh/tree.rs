@@ -122,7 +122,8 @@ mod tests {
         let boxes: Vec<Aabb> = (0..500)
             .map(|i| {
                 let centre = [f64::from(i % 5), 5.0 * roll(i, 1), 5.0 * roll(i, 2)];
-                Aabb { low: centre, high: centre }.grown(0.5 * roll(i, 3))
+                let margin = 0.5 * roll(i, 3);
+                Aabb { low: centre.map(|x| x - margin), high: centre.map(|x| x + margin) }
             })
             .collect();
         let tree = Tree::new(boxes.iter().copied());
