@@ -89,8 +89,11 @@ fn make(count: usize, step: &str, tolerance: &str, [scene, stones]: [&str; 2]) -
     Ok(std::fs::write(scene, text)?)
 }
 
+/// A world of stones, and where each body is.
+type Stones = (World<Solid, 3, 6>, Vec<Pose<DQuat, 3>>);
+
 /// The scene, its world, and where the body of each stone is in the coordinates of its corners.
-fn load(path: &str) -> Result<(World<Solid, 3, 6>, Vec<Pose<DQuat, 3>>), Box<dyn Error>> {
+fn load(path: &str) -> Result<Stones, Box<dyn Error>> {
     let scene = Scene::load(Path::new(path))?;
     let AnyWorld::Solid(world) = scene.build(u64::MAX)? else { return Err("a scene of the plane".into()) };
     let own = |i: usize| {

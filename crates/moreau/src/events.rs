@@ -162,7 +162,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Schedule<S, D, N> {
                     bodies.load[i] = std::array::from_fn(|k| running.load[k] + mean[k]);
                 }
                 Drive::Imposed(imposed) => {
-                    bodies.velocity[i] = imposed.velocity::<S, N>(bodies.pose[i].rotation, time, EARLY * h)
+                    bodies.velocity[i] = imposed.velocity::<S, N>(bodies.pose[i].rotation, time, EARLY * h);
                 }
             }
         }

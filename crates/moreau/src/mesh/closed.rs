@@ -48,8 +48,8 @@ pub(super) fn closed(mut mesh: Mesh) -> Result<Closed, MeshError> {
     crossings::check(&mesh)?;
     let area: f64 = (0..mesh.triangles.len()).filter_map(|i| vector::area(mesh.corners(i))).sum();
     let volume = moments_of(&mesh.points, &mesh.triangles).volume;
-    // Not `<=`: a volume that is no number is none.
-    if !(volume.abs() > HOLLOW * area * area.sqrt()) {
+    // A volume that is no number is none.
+    if volume.is_nan() || volume.abs() <= HOLLOW * area * area.sqrt() {
         return Err(MeshError::NoVolume { volume, area });
     }
     let turned = volume < 0.0;

@@ -115,7 +115,7 @@ fn element(key: String, element: &At<'_>) -> Result<Block, MeshError> {
     }
     if let Some(transformation) = element.get("transformation") {
         let rows = transformation.need("matrix")?.items()?;
-        let rows = rows.iter().map(|row| row.numbers::<4>()).collect::<Result<Vec<_>, _>>()?;
+        let rows = rows.iter().map(json::At::numbers::<4>).collect::<Result<Vec<_>, _>>()?;
         let [x, y, z, ..] = rows.as_slice() else {
             return Err(transformation.fault("a matrix of fewer than 3 rows", "expected 4 rows of 4 numbers"));
         };

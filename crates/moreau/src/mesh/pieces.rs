@@ -45,8 +45,8 @@ impl Closed {
         check(cutting)?;
         let mesh = self.mesh();
         let points: Vec<DVec3> = mesh.points.iter().map(|&p| p.into()).collect();
-        let whole = mesh.triangles.iter().flatten().map(|&i| points[i as usize]).collect();
-        if let Some(whole) = hull(whole)
+        let whole: Vec<DVec3> = mesh.triangles.iter().flatten().map(|&i| points[i as usize]).collect();
+        if let Some(whole) = hull(&whole)
             && moments_of(&whole.points, &whole.triangles).volume <= (1.0 + cutting.concavity) * self.mass().volume
         {
             return Ok(vec![whole]);
@@ -61,13 +61,13 @@ impl Closed {
         };
         let cut = VHACD::decompose(&parameters, &points, &mesh.triangles, true);
         let parts = cut.voxel_parts().iter().map(|part| part.compute_primitive_intersections(&points, &mesh.triangles));
-        let pieces: Vec<Piece> = parts.filter_map(hull).collect();
+        let pieces: Vec<Piece> = parts.filter_map(|part| hull(&part)).collect();
         if pieces.is_empty() { Err(MeshError::NoPieces { resolution: cutting.resolution }) } else { Ok(pieces) }
     }
 }
 
-fn hull(points: Vec<DVec3>) -> Option<Piece> {
-    let (points, triangles) = try_convex_hull(&points).ok()?;
+fn hull(points: &[DVec3]) -> Option<Piece> {
+    let (points, triangles) = try_convex_hull(points).ok()?;
     Some(Piece { points: points.iter().map(DVec3::to_array).collect(), triangles })
 }
 

@@ -111,7 +111,8 @@ fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
     let [mut sizes, mut places, mut speeds] = Random::three(spec.seed.unwrap_or(index as u64));
     let count = usize::try_from(spec.number(D)).unwrap_or(usize::MAX);
     let radii = spec.radii.draw(count, D, &mut sizes).ok_or_else(|| Radii::empty(key_path!["generate", index, "radii"]))?;
-    let centres = centres::<D>(spec.arrangement(), spec.radii.largest(), &radii, &mut places, &key_path!["generate", index])?;
+    let centres =
+        centres::<D>(spec.arrangement().as_ref(), spec.radii.largest(), &radii, &mut places, &key_path!["generate", index])?;
     let (material, density) = material(scene, &spec.material);
     let common = S::join(vector(&spec.velocity), spec.spin.as_ref());
     // Numbered along a curve through space: neighbours are then near each other in memory, too.
@@ -135,7 +136,7 @@ fn generated<S: SceneSpace<D, N>, const D: usize, const N: usize>(
 
 /// Centres for balls of these radii, none larger than the `largest`.
 pub(super) fn centres<const D: usize>(
-    arrangement: Option<Arrangement<'_>>,
+    arrangement: Option<&Arrangement<'_>>,
     largest: f64,
     radii: &[f64],
     random: &mut Random,

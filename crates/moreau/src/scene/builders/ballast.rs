@@ -117,7 +117,7 @@ impl Ballast {
         })?;
         let around = |(stone, radius): (&Vec<[f64; D]>, &f64)| radius * stone.iter().map(square).fold(0.0, f64::max).sqrt();
         let balls: Vec<f64> = stones.iter().zip(&radii).map(around).collect();
-        let centres = centres::<D>(self.arrangement(), self.largest(D), &balls, places, &site.path)?;
+        let centres = centres::<D>(self.arrangement().as_ref(), self.largest(D), &balls, places, &site.path)?;
         // In the plane the second coordinate is up.
         let padded = |p: [f64; D]| [p[0], if D == 3 { p[1] } else { 0.0 }, p[D - 1]];
         Ok(radii.into_iter().zip(centres.into_iter().map(padded)).collect())

@@ -37,7 +37,7 @@ impl DryStone {
         let stones = self.stones as f64;
         // Each end of a joint moves by up to half of the irregularity, so that two leave at least what the irregularity leaves of a stone.
         let mut joint = |k: f64| [k; 2].map(|k| length * (k - 0.5 * stones + self.irregularity * (random.unit() - 0.5)));
-        let first = if layer % 2 == 0 { 1.0 } else { 0.5 };
+        let first = if layer.is_multiple_of(2) { 1.0 } else { 0.5 };
         let inner = (0..).map(|k| first + f64::from(k)).take_while(|&k| k < stones);
         let mut joints = vec![[-0.5 * stones * length; 2]];
         joints.extend(inner.map(&mut joint));

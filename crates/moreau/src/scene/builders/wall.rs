@@ -40,7 +40,7 @@ impl Wall {
     /// The lengths of the bricks of a course.
     fn lengths(&self, course: u64) -> Vec<f64> {
         let whole = edges(&self.size).0[0];
-        if self.bond == Bond::Stack || course % 2 == 0 {
+        if self.bond == Bond::Stack || course.is_multiple_of(2) {
             return vec![whole; self.bricks as usize];
         }
         // Two halves and the gap between them are a brick.

@@ -15,8 +15,11 @@ const FARTHEST: f64 = 1e50;
 /// By how much ε may be made wider, by factors of ten, for points that are flat to a part of it only.
 const WIDER: i32 = 3;
 
+/// Vertices, and faces by their corners.
+type Faces = (Vec<[f64; 3]>, Vec<Vec<u16>>);
+
 /// Vertices of the hull and its faces, counter-clockwise seen from outside. Of the size, `flat` is what may deviate from a plane.
-pub(super) fn hull(points: &[[f64; 3]], flat: f64) -> Result<(Vec<[f64; 3]>, Vec<Vec<u16>>), ShapeError> {
+pub(super) fn hull(points: &[[f64; 3]], flat: f64) -> Result<Faces, ShapeError> {
     if points.len() < 4 {
         return Err(ShapeError::TooFewPoints { what: "polyhedron", count: points.len(), least: 4 });
     }

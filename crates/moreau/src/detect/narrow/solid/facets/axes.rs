@@ -32,14 +32,9 @@ pub(super) fn best<A: Faceted, B: Faceted>(
         return None;
     }
     // Not `>`: what is nowhere touches nothing.
-    let (face_a, apart_a) = farthest(a, b);
-    if !(apart_a <= reach) {
-        return None;
-    }
-    let (face_b, apart_b) = farthest(b, a);
-    if !(apart_b <= reach) {
-        return None;
-    }
+    let in_reach = |(face, apart): (usize, f64)| (apart <= reach).then_some((face, apart));
+    let (face_a, apart_a) = in_reach(farthest(a, b))?;
+    let (face_b, apart_b) = in_reach(farthest(b, a))?;
     let (mut axis, mut apart) = (Axis::FaceOfFirst(face_a), apart_a);
     if apart_b > apart + level {
         (axis, apart) = (Axis::FaceOfSecond(face_b), apart_b);
