@@ -1,6 +1,6 @@
 //! Builders: structures of many bodies from a few lines.
 //!
-//! A builder is one file (its numbers, a [`Builder`]) and one row in the table [`BUILDERS`]. It is a pure function of what the scene says
+//! A builder is one file (its numbers, a `Builder`) and one row in the table [`BUILDERS`]. It is a pure function of what the scene says
 //! of it: pieces in the builder's own coordinates, which the common part puts in place.
 //!
 //! Most are made of a profile, points (x, up): in the plane it is a polygon; in space, where up is z, a prism over it along y.
