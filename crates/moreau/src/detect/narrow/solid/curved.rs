@@ -34,6 +34,8 @@ use super::Pose;
 use crate::detect::narrow::vector::{NO_DIRECTION, along, dot, sub};
 use crate::space::{Solid, Space};
 
+use best::Direction;
+
 pub(super) use best::Best;
 pub(super) use hull::{Dot, Hull, Segment};
 pub(super) use hulls::hulls;
@@ -90,19 +92,16 @@ pub(super) fn contacts<A: Convex, B: Convex>(
     pose: &Pose,
     emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
-    if touch.is_beyond(best.apart) {
+    if best.is_beyond(touch) {
         return;
     }
-    let (normal, apart) = (best.normal, best.apart - touch.grown());
-    let patches = [best.a.patch(normal, touch.level), best.b.patch(normal.map(|x| -x), touch.level)];
-    let mut points = Points::new(apart, touch);
-    lines::ends(&patches, normal, touch, &mut points);
-    // Where lines cross only just within their ends, an end has the gap to many digits but not the normal.
-    if !points.have_least(1e-3) {
-        overlap::overlap(&patches, normal, touch, &mut points);
+    let mut points = points_along(best, &best.first, touch);
+    if !points.have_least(1.0) {
+        // Only nearly as good as the best, so that what is lowest lies beside what is highest.
+        points = points_along(best, &best.best, touch);
     }
     if !points.have_least(1.0) {
-        points.add_seen(between(&patches, best.pair, normal, touch, apart));
+        points.add_seen(between(best, &best.best, touch));
     }
     points.spread();
     for &Point { feature, at, normal, gap } in points.all() {
@@ -111,18 +110,35 @@ pub(super) fn contacts<A: Convex, B: Convex>(
     }
 }
 
-/// The point half-way between two points of the bodies or else between the highest corner of the first patch and the lowest of the
+fn points_along<A: Convex, B: Convex>(best: &Best<'_, A, B>, direction: &Direction, touch: &Touch) -> Points {
+    let &Direction { normal, apart, .. } = direction;
+    let patches = [best.a.patch(normal, touch.level), best.b.patch(normal.map(|x| -x), touch.level)];
+    let mut ends = Points::new(apart - touch.grown(), touch);
+    lines::ends(&patches, normal, touch, &mut ends);
+    // Where lines cross only just within their ends, an end has the gap to many digits but not the normal.
+    if ends.have_least(1e-3) {
+        return ends;
+    }
+    let mut points = Points::new(apart - touch.grown(), touch);
+    overlap::overlap(&patches, normal, touch, &mut points);
+    ends.all().iter().for_each(|&end| points.add_seen(end));
+    points
+}
+
+/// The point half-way between the two that the direction comes from, or else between the highest corner of the first body and the lowest of the
 /// second.
-fn between([a, b]: &[Patch; 2], pair: Option<[[f64; 3]; 2]>, normal: [f64; 3], touch: &Touch, apart: f64) -> Point {
+fn between<A: Convex, B: Convex>(best: &Best<'_, A, B>, direction: &Direction, touch: &Touch) -> Point {
+    let &Direction { normal, apart, pair } = direction;
     let highest = |patch: &Patch, sign: f64| {
         let height = |k: usize| sign * dot(normal, patch.corners()[k].at);
         patch.corners()[(1..patch.corners().len()).fold(0, |best, k| if height(k) > height(best) { k } else { best })]
     };
-    let (a, b) = (highest(a, 1.0), highest(b, -1.0));
+    let a = highest(&best.a.patch(normal, touch.level), 1.0);
+    let b = highest(&best.b.patch(normal.map(|x| -x), touch.level), -1.0);
     let [on_a, on_b] = pair.unwrap_or([a.at, b.at]);
     let (on_a, on_b) = (along(on_a, touch.radii[0], normal), along(on_b, -touch.radii[1], normal));
     let at = std::array::from_fn(|k| 0.5 * (on_a[k] + on_b[k]));
-    Point { feature: feature(2, a.id, b.id), at, normal, gap: apart }
+    Point { feature: feature(2, a.id, b.id), at, normal, gap: apart - touch.grown() }
 }
 
 /// The unit vector along another one that is long enough.

@@ -32,7 +32,7 @@ pub(super) fn collide(
     best.offer_both_ways([-y, x, 0.0]);
     for rim_a in a.rims() {
         for rim_b in b.rims() {
-            rims(&rim_a, &rim_b, |way| best.offer_both_ways(way));
+            rims(&rim_a, &rim_b, |way, pair| best.offer_across(way, pair));
         }
     }
     contacts(&best, &touch, pose_a, emit);

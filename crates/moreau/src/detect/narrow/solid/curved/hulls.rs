@@ -44,28 +44,35 @@ pub(in crate::detect::narrow::solid) fn hulls<A: Faceted, B: Faceted>(
     }
     for edge_a in a.body.edges() {
         let ends_a = a.ends(edge_a);
-        for edge_b in b.body.edges() {
-            match across(ends_a, b.ends(edge_b)) {
-                Some((across, pair)) => best.offer_across(across, pair),
-                // Parallel ones that lie in each other leave each other across.
-                None => best.offer_both_ways(Solid::frame(unit(sub(ends_a[1], ends_a[0])).unwrap_or([0.0; 3]))[1]),
-            }
-        }
+        b.body.edges().iter().for_each(|edge_b| edges(best, ends_a, b.ends(edge_b)));
     }
 }
 
-/// The vector across two segments, and where on each they are nearest; `None` where they are parallel or this is not within them.
-fn across([p, q]: [[f64; 3]; 2], [r, s]: [[f64; 3]; 2]) -> Option<([f64; 3], [[f64; 3]; 2])> {
+/// Tries what is across two edges, if they are nearest within both.
+fn edges<A: Faceted, B: Faceted>(best: &mut Best<'_, Hull<'_, A>, Hull<'_, B>>, [p, q]: [[f64; 3]; 2], [r, s]: [[f64; 3]; 2]) {
     let (u, v) = (sub(q, p), sub(s, r));
     let across = cross(u, v);
     let square = dot(across, across);
     if square <= PARALLEL * dot(u, u) * dot(v, v) {
-        return None;
+        // Parallel ones that lie in each other leave each other across.
+        let way = unit(u).unwrap_or([0.0; 3]);
+        best.offer_beside(Solid::frame(way)[1], shared([p, q], [r, s]));
+        return;
     }
     // r + y v − p − x u is along u × v.
     let (x, y) = (dot(cross(sub(r, p), v), across) / square, dot(cross(sub(r, p), u), across) / square);
     let within = |x: f64| x > -BEYOND && x < 1.0 + BEYOND;
-    (within(x) && within(y)).then(|| (across, [along(p, x, u), along(r, y, v)]))
+    if within(x) && within(y) {
+        best.offer_across(across, [along(p, x, u), along(r, y, v)]);
+    }
+}
+
+/// The middle of what of the first segment is beside a parallel one, and the point beside it.
+fn shared([p, q]: [[f64; 3]; 2], [r, s]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+    let (u, v) = (sub(q, p), sub(s, r));
+    let [x, y] = [r, s].map(|end| (dot(sub(end, p), u) / dot(u, u)).clamp(0.0, 1.0));
+    let on_a = along(p, 0.5 * (x + y), u);
+    [on_a, along(r, dot(sub(on_a, r), v) / dot(v, v), v)]
 }
 
 /// The point between the ends of a segment that is nearest to another point, if there is one.

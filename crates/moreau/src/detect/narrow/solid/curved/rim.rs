@@ -103,55 +103,89 @@ fn root(p: f64, q: f64, c: f64, start: f64) -> Option<f64> {
     Some(root)
 }
 
-/// Directions in which two rims are nearest or least through each other, up to their sign: all local minima of the distance of
-/// a point of the smaller rim from the larger one.
-pub(in crate::detect::narrow::solid) fn rims(a: &Rim, b: &Rim, mut found: impl FnMut([f64; 3])) {
+/// Into how many parts a rim is cut.
+const PARTS: usize = 32;
+
+/// Directions in which two rims are nearest or least through each other, up to their sign: at all local minima of the distance of
+/// a point of the smaller rim from the larger one, with the points, one of each.
+///
+/// Bodies that overlap part there too. With the tangents τ₁ and τ₂ of the rims, c = τ₁·τ₂, the depth d and the parts k of the rims'
+/// curvatures along the normal, both the distance between the rims and the depth have a local minimum where the matrix
+/// (1 − d k₁, c; c, 1 − d k₂) is positive.
+pub(in crate::detect::narrow::solid) fn rims(a: &Rim, b: &Rim, mut found: impl FnMut([f64; 3], [[f64; 3]; 2])) {
     let (small, large) = if a.radius <= b.radius { (a, b) } else { (b, a) };
-    // An eighth of a rim in four parts, along its chord.
-    let part = |k: usize| {
-        let (p, q, x) = (FIXED[k / 4 % 8], FIXED[(k / 4 + 1) % 8], 0.25 * (k % 4) as f64);
-        [0, 1].map(|i| p[i] + x * (q[i] - p[i]))
+    // A place on the rim from 0 to PARTS, along the chords of eighths.
+    let out = |place: f64| {
+        let eighth = 0.25 * place;
+        let (k, x) = (eighth as usize, eighth.fract());
+        let (p, q) = (FIXED[k % 8], FIXED[(k + 1) % 8]);
+        let [u, v] = [0, 1].map(|i| p[i] + x * (q[i] - p[i]));
+        let length = (u * u + v * v).sqrt();
+        along(small.tangents[0].map(|t| u / length * t), v / length, small.tangents[1])
     };
-    let out = |[x, y]: [f64; 2]| {
-        let length = (x * x + y * y).sqrt();
-        along(small.tangents[0].map(|t| x / length * t), y / length, small.tangents[1])
+    // There, the way to it from the nearest point of the other.
+    let way = |place: f64| {
+        let here = along(small.centre, small.radius, out(place));
+        (sub(here, large.nearest(here).unwrap_or(here)), here)
     };
-    // Half the change of the squared distance along the rim, with the way to the other.
-    let slope = |place: [f64; 2]| {
-        let out = out(place);
-        let tangent = cross(small.outward, out);
-        let here = along(small.centre, small.radius, out);
-        let way = sub(here, large.nearest(here).unwrap_or(here));
-        (dot(way, tangent), way, tangent)
-    };
-    let mut before = slope(part(0)).0;
-    for k in 0..32 {
-        let after = slope(part(k + 1)).0;
-        if before < 0.0 && after >= 0.0 {
-            let place = zero(|place| slope(place).0, (part(k), before), (part(k + 1), after));
-            let (_, way, tangent) = slope(place);
-            let across = large
-                .radial(along(small.centre, small.radius, out(place)))
-                .map_or([0.0; 3], |radial| cross(tangent, cross(large.outward, radial)));
-            // The way has few digits where it is short, what is across both rims where they run alike.
-            let is_short = dot(way, way) < dot(across, across) * small.radius * small.radius;
-            found(if is_short { across } else { way });
-        }
-        before = after;
+    // Half the change of the squared distance along the rim.
+    let slope = |place: f64| dot(way(place).0, cross(small.outward, out(place)));
+    let slopes: [f64; PARTS] = std::array::from_fn(|k| slope(k as f64));
+    for k in 0..PARTS {
+        let [before, here, after] = [PARTS - 1, 0, 1].map(|step| slopes[(k + step) % PARTS]);
+        let place = k as f64;
+        let root = if here < 0.0 && after >= 0.0 {
+            Some(zero(slope, (place, here), (place + 1.0, after)))
+        } else {
+            // The place before 0 is that before PARTS.
+            let place = if k == 0 { PARTS as f64 } else { place };
+            hidden(slope, place, [before, here, after])
+        };
+        let Some(place) = root else { continue };
+        let (way, here) = way(place);
+        let on_large = sub(here, way);
+        let across =
+            large.radial(here).map_or([0.0; 3], |radial| cross(cross(small.outward, out(place)), cross(large.outward, radial)));
+        // The way has few digits where it is short, what is across both rims where they run alike.
+        let is_short = dot(way, way) < dot(across, across) * small.radius * small.radius;
+        let pair = if a.radius <= b.radius { [here, on_large] } else { [on_large, here] };
+        found(if is_short { across } else { way }, pair);
     }
 }
 
-/// Where on a chord a function that is negative at its beginning becomes zero: false position with the Illinois rule.
-fn zero(f: impl Fn([f64; 2]) -> f64, (p, mut below): ([f64; 2], f64), (q, mut above): ([f64; 2], f64)) -> [f64; 2] {
-    let (mut low, mut high) = (0.0, 1.0);
+/// A zero from below of a function that has one sign at three neighbouring places and might have the other between them: where it comes
+/// nearest to zero the second time, if it does.
+fn hidden(f: impl Fn(f64) -> f64, place: f64, [before, here, after]: [f64; 3]) -> Option<f64> {
+    let sign = 1.0_f64.copysign(here);
+    let [left, middle, right] = [before, here, after].map(|x| sign * x);
+    let (fall, bend) = (right - left, left + right - 2.0 * middle);
+    // A parabola through the three stays well away from zero.
+    if !(middle > 0.0 && left > middle && right >= middle && 2.0 * bend * middle <= fall * fall) {
+        return None;
+    }
+    let (mut low, mut high) = (place - 1.0, place + 1.0);
+    for _ in 0..STEPS {
+        let third = (high - low) / 3.0;
+        let [p, q] = [low + third, high - third].map(|x| (x, sign * f(x)));
+        let nearest = if p.1 < q.1 { p } else { q };
+        if nearest.1 < 0.0 {
+            let (from, to) = if sign > 0.0 { (nearest.0, place + 1.0) } else { (place - 1.0, nearest.0) };
+            return Some(zero(&f, (from, f(from)), (to, f(to))));
+        }
+        if p.1 < q.1 { high = q.0 } else { low = p.0 }
+    }
+    None
+}
+
+/// Where between two places a function that is negative at the first and not at the second is zero: false position with the Illinois rule.
+fn zero(f: impl Fn(f64) -> f64, (mut low, mut below): (f64, f64), (mut high, mut above): (f64, f64)) -> f64 {
     let mut last = 0.0;
-    let at = |x: f64| [0, 1].map(|i| p[i] + x * (q[i] - p[i]));
     for _ in 0..STEPS {
         let x = (low * above - high * below) / (above - below);
         if !(x > low && x < high) {
             break;
         }
-        let value = f(at(x));
+        let value = f(x);
         if value < 0.0 {
             (low, below) = (x, value);
             above *= if last < 0.0 { 0.5 } else { 1.0 };
@@ -161,5 +195,5 @@ fn zero(f: impl Fn([f64; 2]) -> f64, (p, mut below): ([f64; 2], f64), (q, mut ab
         }
         last = 1.0_f64.copysign(value);
     }
-    at(if -below < above { low } else { high })
+    if -below < above { low } else { high }
 }

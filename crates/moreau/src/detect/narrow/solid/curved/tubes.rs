@@ -81,7 +81,7 @@ fn rim_with_edge<F: Faceted>(best: &mut Best<'_, Tube, Hull<'_, F>>, rim: &Rim, 
     let is_within = place >= -best.level && place <= dot(edge, way) + best.level;
     let on_edge = along(p, place, way);
     // No farther than two of their points are.
-    if is_within && dot(normal, sub(on_edge, on_rim)) > best.apart {
+    if is_within && dot(normal, sub(on_edge, on_rim)) > best.best.apart {
         best.take_pair(normal, [on_rim, on_edge]);
     }
 }
