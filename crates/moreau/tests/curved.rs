@@ -37,7 +37,7 @@ material = "stone"
 /// Takes steps; gives the number of contacts of the last one.
 fn run(world: &mut World<Solid, 3, 6>, steps: usize) -> usize {
     let mut work = Workspace::default();
-    (0..steps).map(|_| step(world, &mut work).unwrap().contacts).last().unwrap() as usize
+    (0..steps).map(|_| step(world, &mut work).unwrap().contacts).last().unwrap()
 }
 
 /// Checks that a body stays where it is, to what the solver leaves: 1e-12 of the scaled residual a step.
