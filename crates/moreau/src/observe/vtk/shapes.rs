@@ -68,7 +68,7 @@ impl Shapes {
         bodies: &Bodies<S, D, N>,
         kept: &mut Arc<Drawing>,
     ) {
-        let is_drawn = |&i: &usize| !bodies.shape[i].is_round() && bodies.shape[i].bounding_radius().is_some();
+        let is_drawn = |&i: &usize| bodies.is_present(i) && !bodies.shape[i].is_round();
         let drawn = || (0..bodies.len()).filter(is_drawn);
         if !drawn().eq(kept.bodies.iter().copied()) {
             *kept = Arc::new(Drawing::of(bodies, drawn().collect()));

@@ -3,6 +3,7 @@
 use super::files::Files;
 use super::snapshot::Snapshot;
 use super::{Frame, Observer, OutputError, VtkOutput};
+use crate::bodies::Motion;
 use crate::observe::StepsCsv;
 use crate::observe::background::Writer;
 use crate::run::{End, run};
@@ -91,6 +92,19 @@ fn files_are_those_of_a_run_that_waits_for_them() {
         let (behind, direct) = (all(behind.path()), all(direct.path()));
         assert_eq!(behind.len(), kinds * 31 + kinds);
         assert!(behind == direct, "{:?} and {:?}", behind.keys(), direct.keys());
+    }
+}
+
+#[test]
+fn a_body_that_is_gone_is_drawn_no_more() {
+    let mut world = built(&(DROP.to_owned() + BOX));
+    let (mut snapshot, mut drawing) = (Snapshot::default(), Arc::default());
+    for (motion, polygons) in [(Motion::Free, 6), (Motion::Absent, 0), (Motion::Absent, 0)] {
+        world.bodies.set_motion(2, motion);
+        snapshot.take(&Frame { world: &world, contacts: &[], record: None }, &mut drawing);
+        let data = snapshot.shapes();
+        assert_eq!((data.polys.len(), data.cell_data[0].values.len()), (polygons, polygons));
+        assert!(snapshot.has_shapes() == (polygons > 0) && data.points.len() == polygons / 6 * 8);
     }
 }
 

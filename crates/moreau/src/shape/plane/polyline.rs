@@ -1,7 +1,7 @@
 //! The polyline: ground or wall by points, solid on one side.
 
 use super::boundary::{check_finite, dot, meet, sub, turn};
-use crate::shape::{Figure, ShapeError};
+use crate::shape::{Figure, Polygons, ShapeError};
 use crate::space::Plane;
 use std::sync::Arc;
 use tree::Tree;
@@ -152,6 +152,13 @@ impl Figure<Plane, 2, 3> for Polyline {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         None
+    }
+
+    /// Its segments as lines: what lies behind them has no end.
+    fn polygons(&self) -> Polygons<2> {
+        let mut all = Polygons::on(self.segments().iter().flat_map(|segment| [segment.start, segment.end]).collect());
+        (0..self.segments().len()).for_each(|i| all.push([2 * i, 2 * i + 1]));
+        all
     }
 
     fn mass(&self, _: f64) -> [f64; 3] {
