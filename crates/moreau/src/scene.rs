@@ -256,6 +256,15 @@ impl Scene {
         None
     }
 
+    /// How body `index` of the world moves, of those that have names.
+    fn motion_of(&self, index: usize) -> Option<MotionKind> {
+        match start::Origin::of(self, index)? {
+            start::Origin::Body(i) => Some(self.bodies.get(i)?.motion()),
+            start::Origin::Built(i, number) => Some(self.build.get(i)?.motion_of(number, self.dimension.number())),
+            _ => None,
+        }
+    }
+
     /// Words for body `index` of the world that tell where it comes from: `bodies[3] "hammer"`, `voussoir 2 of build[0]`, `wall -z of
     /// containers[0]`.
     pub fn body_label(&self, index: usize) -> String {

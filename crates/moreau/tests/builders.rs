@@ -4,6 +4,7 @@ use glam::DVec3;
 use moreau::contacts::Contact;
 use moreau::detect::Detector;
 use moreau::scene::{AnyWorld, Scene};
+use moreau::shape::PlaneShape;
 use moreau::space::{Plane, Solid, Space};
 use moreau::step::{Workspace, step};
 use moreau::world::World;
@@ -260,6 +261,10 @@ fn a_drum_turns_about_its_axis_and_weighs_what_its_plates_do() {
     // Against y before the turn, so along x after it.
     let spin = Solid::spin_in_world(world.bodies.pose[1].rotation, &world.bodies.velocity[1]);
     assert!((spin[0] - 3.0).abs() < 1e-9 && spin[1].abs() < 1e-9 && spin[2].abs() < 1e-9, "{spin:?}");
+    let flat = plane("drum = { radius = 1.0, thickness = 0.1, sides = 20, spin = 3 }");
+    close(flat.bodies.mass[1][0], 1000.0 * (polygon(1.1) - polygon(1.0)), 1e-12);
+    assert_eq!(flat.bodies.velocity[1], [0.0, 0.0, 3.0]);
+    assert!(flat.bodies.pose[1].position.iter().all(|x| x.abs() < 1e-15));
 }
 
 #[test]
@@ -282,7 +287,7 @@ fn a_hopper_keeps_its_opening_and_its_plates_their_thickness() {
 }
 
 #[test]
-fn ballast_is_as_wide_as_its_sieve_and_does_not_touch() {
+fn ballast_does_not_touch() {
     for (dimension, axes) in [(2, ""), (3, ", flatness = 0.5")] {
         let corner = |x: f64| format!("{:?}", vec![x; dimension]);
         let spec = format!(
@@ -295,6 +300,31 @@ fn ballast_is_as_wide_as_its_sieve_and_does_not_touch() {
             AnyWorld::Plane(world) => assert!(contacts(&world).is_empty() && world.bodies.len() == 61),
             AnyWorld::Solid(world) => assert!(contacts(&world).is_empty() && world.bodies.len() == 61),
         }
+    }
+}
+
+/// Seen from every side, a stone of the plane is once as wide as its sieve and, across that, as long as its elongation says.
+#[test]
+fn a_stone_is_as_wide_as_its_sieve_and_as_long_as_its_elongation_says() {
+    let world = plane(
+        "ballast = { count = 20, radii.constant = 1.0, corners = 9, elongation = 0.8, seed = 2, \
+         lattice = { min = [0, 0], max = [20, 20] } }",
+    );
+    for shape in &world.bodies.shape[1..] {
+        let PlaneShape::Polygon(stone) = shape else { panic!("a stone that is no polygon") };
+        assert_eq!(stone.vertices().len(), 9);
+        let width = |[x, y]: [f64; 2]| {
+            let along = |p: [f64; 2]| x * p[0] + y * p[1];
+            let (low, high) = (stone.vertices().map(along), stone.vertices().map(along));
+            high.fold(f64::NEG_INFINITY, f64::max) - low.fold(f64::INFINITY, f64::min)
+        };
+        // A ten-thousandth of a half turn moves a corner by less than 4e-4 m.
+        let off = |k: u32| {
+            let (sine, cosine) = (PI * f64::from(k) / 1e4).sin_cos();
+            (width([cosine, sine]) - 2.5).abs().max((width([-sine, cosine]) - 2.0).abs())
+        };
+        let least = (0..10_000).map(off).fold(f64::INFINITY, f64::min);
+        assert!(least < 1e-3, "{least}");
     }
 }
 
@@ -364,6 +394,20 @@ fn built_bodies_have_names_and_labels_between_those_of_bodies_and_walls() {
     let AnyWorld::Plane(world) = scene.build(u64::MAX).unwrap() else { panic!("of the plane") };
     assert_eq!(world.bodies.len(), 10);
     close(world.bodies.pose[5].position[0], 4.0, 1e-12);
+}
+
+#[test]
+fn joints_know_built_bodies_by_name() {
+    let arch = "arch = { stones = 4, radius = 1.0, thickness = 0.3, springers = \"fixed\" }";
+    let joint = |between: &str| format!("{}[[joints]]\nkind.hinge.anchor = [0, 1]\nbetween = [{between}]\n", text(2, arch));
+    let scene = Scene::parse(&joint("\"it.1\", \"it.2\""), "joint.toml").unwrap();
+    let AnyWorld::Plane(world) = scene.build(u64::MAX).unwrap() else { panic!("of the plane") };
+    assert_eq!(world.joints.len(), 1);
+    assert_eq!(world.joints[0].bodies, [Some(2), Some(3)]);
+    let error = Scene::parse(&joint("\"it.4\", \"it.5\""), "joint.toml").expect_err("two springers").to_string();
+    assert!(error.contains("do not give way"), "{error}");
+    let error = Scene::parse(&joint("\"it.6\""), "joint.toml").expect_err("six stones").to_string();
+    assert!(error.contains("no body is named `it.6`") && error.contains("`it.0`"), "{error}");
 }
 
 #[test]

@@ -57,7 +57,7 @@ builders! {
     dome::Dome, "dome", [3], "a hemispherical dome of voussoirs";
     dominoes::Dominoes, "dominoes", [2, 3], "a row of dominoes";
     card_house::CardHouse, "card_house", [2, 3], "a house of cards that lean on each other";
-    drum::Drum, "drum", [3], "a rotating drum of plates, one driven body";
+    drum::Drum, "drum", [2, 3], "a rotating drum of plates, one driven body";
     hopper::Hopper, "hopper", [2, 3], "a hopper of fixed plates";
     ballast::Ballast, "ballast", [2, 3], "random convex stones, apart from each other";
 }
@@ -136,6 +136,13 @@ impl Build {
         self.motion.unwrap_or(self.kind.builder().motion())
     }
 
+    /// How its body of this number moves.
+    pub(super) fn motion_of(&self, number: u64, dimension: usize) -> MotionKind {
+        let builder = self.kind.builder();
+        let held = number >= builder.count(dimension).saturating_sub(builder.held());
+        if held { MotionKind::Fixed } else { self.motion() }
+    }
+
     /// Words for its body of this number: `voussoir 3 of build[0] "arch"`.
     pub(super) fn label_of(&self, index: usize, number: u64) -> String {
         let name = self.name.as_ref().map_or(String::new(), |name| format!(" {name:?}"));
@@ -163,7 +170,6 @@ pub(super) fn bodies<S: SceneSpace<D, N>, const D: usize, const N: usize>(
 ) -> Result<Vec<BodySpec>, Fault> {
     let builder = build.kind.builder();
     let (origin, rotation): ([f64; D], _) = (vector(&build.position), S::rotation(build.orientation.as_ref()));
-    let free = builder.count(D).saturating_sub(builder.held());
     // From x to up is about the third axis in the plane; in space it is against y.
     let spin = (builder.spin() != 0.0).then(|| match D {
         2 => Angular::Plane(builder.spin()),
@@ -181,7 +187,7 @@ pub(super) fn bodies<S: SceneSpace<D, N>, const D: usize, const N: usize>(
             orientation: build.orientation.clone(),
             velocity: Vec::new(),
             spin: spin.clone(),
-            motion: Some(if number < free { build.motion() } else { MotionKind::Fixed }),
+            motion: Some(build.motion_of(number, D)),
             force: Vec::new(),
             torque: None,
             drive: Vec::new(),

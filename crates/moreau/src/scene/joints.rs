@@ -84,7 +84,7 @@ fn joint<S: SceneSpace<D, N>, const D: usize, const N: usize>(
     bodies: &Bodies<S, D, N>,
     spec: &JointSpec,
 ) -> Option<Joint<D>> {
-    let mut sides = spec.between.iter().map(|name| body_named(scene, name));
+    let mut sides = spec.between.iter().map(|name| scene.body_named(name));
     let sides = match (sides.next()?, sides.next()) {
         (a, Some(b)) => [Some(a?), Some(b?)],
         (b, None) => [None, Some(b?)],
@@ -102,9 +102,4 @@ fn joint<S: SceneSpace<D, N>, const D: usize, const N: usize>(
         JointKindSpec::Distance { from, to } => (JointKind::Distance, [vector(from), vector(to)], any),
     };
     Some(Joint { collide: spec.collide, ..Joint::new::<S, N>(kind, bodies, sides, points, axis) })
-}
-
-/// The index of the body of this name.
-pub(super) fn body_named(scene: &Scene, name: &str) -> Option<usize> {
-    scene.bodies.iter().position(|body| body.name.as_deref() == Some(name))
 }

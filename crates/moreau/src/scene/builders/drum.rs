@@ -7,7 +7,7 @@ use crate::scene::spec::{MotionKind, PartSpec, ShapeSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A drum of plates around a horizontal axis, in space along y: one body, driven. The origin is in the middle of the axis.
+/// A drum of plates around an axis, in space along y: one body, driven. The origin is in the middle of the axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Drum {

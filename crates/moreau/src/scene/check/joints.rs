@@ -2,7 +2,6 @@
 
 use super::{bodies::nonzero, plural, vector};
 use crate::scene::error::{Fault, nearest};
-use crate::scene::joints::body_named;
 use crate::scene::path::{KeyPath, key_path};
 use crate::scene::{JointKindSpec, JointSpec, MotionKind, Scene};
 use std::collections::BTreeMap;
@@ -28,11 +27,13 @@ fn between(scene: &Scene, joint: &JointSpec, path: &KeyPath) -> Result<(), Fault
     }
     let mut free = false;
     for (k, name) in joint.between.iter().enumerate() {
-        let Some(body) = body_named(scene, name) else {
-            let hint = nearest(name, "names of bodies", scene.bodies.iter().filter_map(|body| body.name.as_deref()));
+        let Some(body) = scene.body_named(name) else {
+            let single = scene.bodies.iter().filter_map(|body| body.name.as_deref());
+            let firsts: Vec<String> = scene.build.iter().filter_map(|build| build.name_of(0)).collect();
+            let hint = nearest(name, "names of bodies", single.chain(firsts.iter().map(String::as_str)));
             return Err(Fault::new(path.then(k), format!("no body is named `{name}`"), hint));
         };
-        free |= scene.bodies[body].motion() == MotionKind::Free;
+        free |= scene.motion_of(body) == Some(MotionKind::Free);
     }
     if joint.between.len() == 2 && joint.between[0] == joint.between[1] {
         return Err(Fault::new(
