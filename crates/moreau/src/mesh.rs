@@ -22,7 +22,7 @@ mod tree;
 mod vector;
 
 pub use closed::Closed;
-pub(crate) use edges::Edges;
+pub(crate) use edges::{Edges, NONE};
 pub use error::{MeshError, Place};
 pub use heights::Heights;
 pub use pieces::{Cutting, Piece};

@@ -33,6 +33,11 @@ impl Aabb {
         }
     }
 
+    /// So much larger on every side, m.
+    pub(crate) fn grown(self, by: f64) -> Self {
+        Self { low: self.low.map(|x| x - by), high: self.high.map(|x| x + by) }
+    }
+
     /// Whether two boxes have a point in common; nothing meets what is nowhere.
     #[inline]
     pub(crate) fn meets(&self, other: &Self) -> bool {

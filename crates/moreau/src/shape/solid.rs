@@ -10,6 +10,7 @@ mod half_space;
 mod inertia;
 mod polyhedron;
 pub(crate) mod revolved;
+mod surface;
 
 pub use ball::Ball;
 pub use capsule::Capsule;
@@ -20,6 +21,8 @@ pub use faceted::{Edge, Faceted};
 pub use half_space::HalfSpace;
 pub use inertia::Moments;
 pub use polyhedron::Polyhedron;
+pub use surface::Surface;
+pub(crate) use surface::{On, is_one};
 
 use super::{Figure, Placed, Polygons, Shape};
 use crate::detect::narrow::solid as pairs;
@@ -36,4 +39,5 @@ shapes! {
     Capsule, "capsule", "all within a radius of a segment, by radius and length";
     Cylinder, "cylinder", "a circular cylinder, by radius and length";
     HalfSpace, "half_space", "all that lies below a plane: ground or wall, fixed or driven";
+    Surface, "mesh", "a surface of triangles, from a file, in place or over a grid of heights; fixed or driven";
 }

@@ -22,6 +22,7 @@ mod facets;
 mod polyhedron_box;
 mod polyhedron_half_space;
 mod polyhedron_polyhedron;
+mod surface;
 
 use crate::shape::{Placed, SolidShape};
 use crate::space::{Solid, Space};
@@ -51,6 +52,11 @@ pairs! {
     Polyhedron, HalfSpace => polyhedron_half_space;
     Polyhedron, Cuboid => polyhedron_box;
     Polyhedron, Polyhedron => polyhedron_polyhedron;
+    Surface, Ball => surface;
+    Surface, Cuboid => surface;
+    Surface, Polyhedron => surface;
+    Surface, Capsule => surface;
+    Surface, Cylinder => surface;
     (parts of Compound) => compound;
 }
 

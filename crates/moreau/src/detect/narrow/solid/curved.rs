@@ -103,6 +103,23 @@ pub(super) fn contacts<A: Convex, B: Convex>(
     if !points.have_least(1.0) {
         points.add_seen(between(best, &best.best, touch));
     }
+    show(points, pose, emit);
+}
+
+/// Hands over the contacts that they have along a unit vector from the first to the second, in the frame of `pose`, wherever they are nearest.
+pub(super) fn contacts_along<A: Convex, B: Convex>(
+    (a, b): (&A, &B),
+    normal: [f64; 3],
+    touch: &Touch,
+    pose: &Pose,
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+) {
+    let mut best = Best::new(a, b, touch.level);
+    best.offer(normal);
+    show(points_along(&best, &best.first, touch), pose, emit);
+}
+
+fn show(mut points: Points, pose: &Pose, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
     points.spread();
     for &Point { feature, at, normal, gap } in points.all() {
         let at = along(pose.position, 1.0, Solid::rotate(pose.rotation, at));

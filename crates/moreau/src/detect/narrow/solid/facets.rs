@@ -116,16 +116,40 @@ pub(super) fn collide<A: Faceted, B: Faceted>(
     emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     let mut scratch = SCRATCH.take();
-    points((a, pose_a), (b, pose_b), reach, &mut scratch);
+    points((a, pose_a), None, (b, pose_b), reach, &mut scratch);
+    show(scratch, pose_a, emit);
+}
+
+/// The points along the normal of one face of the first body, wherever the bodies are nearest.
+pub(super) fn along_face<A: Faceted, B: Faceted>(
+    (a, pose_a): (&A, &Pose),
+    face: usize,
+    (b, pose_b): (&B, &Pose),
+    reach: f64,
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+) {
+    let mut scratch = SCRATCH.take();
+    points((a, pose_a), Some(face), (b, pose_b), reach, &mut scratch);
+    show(scratch, pose_a, emit);
+}
+
+/// Hands over the points in the world, and puts the scratch back.
+fn show(scratch: Scratch, pose: &Pose, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
     for &Point { feature, at, normal, gap } in scratch.points.all() {
-        let middle = Solid::rotate(pose_a.rotation, along(at, -0.5 * gap, normal));
-        emit(feature, along(pose_a.position, 1.0, middle), Solid::rotate(pose_a.rotation, normal), gap);
+        let middle = Solid::rotate(pose.rotation, along(at, -0.5 * gap, normal));
+        emit(feature, along(pose.position, 1.0, middle), Solid::rotate(pose.rotation, normal), gap);
     }
     SCRATCH.set(scratch);
 }
 
-/// Leaves the points of contact in the scratch.
-fn points<A: Faceted, B: Faceted>((a, pose_a): (&A, &Pose), (b, pose_b): (&B, &Pose), reach: f64, scratch: &mut Scratch) {
+/// Leaves the points of contact in the scratch: where the bodies are nearest or, if a face of the first one is given, along its normal.
+fn points<A: Faceted, B: Faceted>(
+    (a, pose_a): (&A, &Pose),
+    face: Option<usize>,
+    (b, pose_b): (&B, &Pose),
+    reach: f64,
+    scratch: &mut Scratch,
+) {
     let Scratch { a: corners_a, b: corners_b, points, flat, sides } = scratch;
     points.clear();
     let position = Solid::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
@@ -135,18 +159,22 @@ fn points<A: Faceted, B: Faceted>((a, pose_a): (&A, &Pose), (b, pose_b): (&B, &P
     corners_b.fill(b, |v| along(position, 1.0, turn(v)), turn);
     let (a, b) = (Seen::new(a, corners_a), Seen::new(b, corners_b));
     let level = LEVEL * (a.body.radius() + b.body.radius());
-    let Some((axis, apart)) = best(&a, &b, position, sides, level, reach) else { return };
-    match axis {
-        Axis::FaceOfFirst(face) => overlap(&a, face, &b, true, level, flat, points),
-        Axis::FaceOfSecond(face) => overlap(&b, face, &a, false, level, flat, points),
-        Axis::Edges(point, true) => points.add(point),
-        Axis::Edges(_, false) => {}
-    }
-    let least = points.all().iter().map(|point| point.gap).fold(f64::INFINITY, f64::min);
-    // Where the bodies are apart and a face or two edges are nearest, the axis has their distance.
-    if least > apart.max(0.0) + level {
-        points.clear();
-        points.add(nearest(&a, &b, &axis, apart, level));
+    if let Some(face) = face {
+        overlap(&a, face, &b, true, level, flat, points);
+    } else {
+        let Some((axis, apart)) = best(&a, &b, position, sides, level, reach) else { return };
+        match axis {
+            Axis::FaceOfFirst(face) => overlap(&a, face, &b, true, level, flat, points),
+            Axis::FaceOfSecond(face) => overlap(&b, face, &a, false, level, flat, points),
+            Axis::Edges(point, true) => points.add(point),
+            Axis::Edges(_, false) => {}
+        }
+        let least = points.all().iter().map(|point| point.gap).fold(f64::INFINITY, f64::min);
+        // Where the bodies are apart and a face or two edges are nearest, the axis has their distance.
+        if least > apart.max(0.0) + level {
+            points.clear();
+            points.add(nearest(&a, &b, &axis, apart, level));
+        }
     }
     points.spread(level, reach);
 }

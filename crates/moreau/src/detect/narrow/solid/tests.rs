@@ -7,6 +7,7 @@ mod boxes;
 mod curved;
 mod polyhedra;
 mod resting;
+mod surfaces;
 
 type Found = (u64, [f64; 3], [f64; 3], f64);
 

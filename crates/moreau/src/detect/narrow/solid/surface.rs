@@ -1,0 +1,149 @@
+//! A surface of triangles and a body: the body against each triangle that is near it, without what the triangles' borders add.
+//!
+//! A point that a triangle has with the body counts where its normal is the triangle's own, or where it is on an edge or at a corner and
+//! its normal is one of the surface there, between those of the triangles around it. Any other point is a trace of the subdivision: a body
+//! that slides over a plane of many triangles meets their borders, and must not feel them. Where such a point lies in a plane part of the
+//! surface, and the body is in it, the points along the triangle's normal stand in for it. A body that is in the surface and has traces alone,
+//! because it is deeper than triangles are wide, is met by the one triangle that it leaves soonest along its normal. Points that face the back of a triangle do not
+//! count: a body that is more than half through a surface in one step falls through it, and calls for a shorter step.
+//!
+//! What is left is thinned (`thin`), so that neighbouring triangles have a point once and a plane no more than four.
+
+mod ball;
+mod round;
+mod thin;
+mod triangle;
+
+use super::{Pose, facets};
+use crate::detect::narrow::common::{LEVEL, on_piece};
+use crate::detect::narrow::vector::{along, dot, sub};
+use crate::mesh::Aabb;
+use crate::shape::solid::{Faceted, On, Surface};
+use crate::space::{Solid, Space};
+use std::cell::Cell;
+use thin::{Found, thin};
+use triangle::Triangle;
+
+/// A body that can touch a triangle. Poses, points and normals are in the frame of the triangle.
+pub(super) trait Touches {
+    /// The box around it.
+    fn around(&self, pose: &Pose) -> Aabb;
+
+    /// Radius of the ball around its position that holds it, m.
+    fn size(&self) -> f64;
+
+    /// Its contacts with a triangle, normals from that, by 32-bit features that ascend.
+    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64));
+
+    /// Those along the normal of the triangle; none for a body that has all that there are already.
+    fn touch_front(&self, _: &Pose, _: &Triangle, _: f64, _: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {}
+}
+
+/// What has flat faces meets a triangle as it meets any such body.
+impl<F: Faceted> Touches for F {
+    fn around(&self, pose: &Pose) -> Aabb {
+        Aabb::around((0..self.vertices()).map(|i| along(pose.position, 1.0, Solid::rotate(pose.rotation, self.vertex(i)))))
+    }
+
+    fn size(&self) -> f64 {
+        self.radius()
+    }
+
+    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+        facets::collide((triangle, &HERE), (self, pose), reach, emit);
+    }
+
+    fn touch_front(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+        facets::along_face((triangle, &HERE), Triangle::FRONT, (self, pose), reach, emit);
+    }
+}
+
+/// The frame of the surface, seen from itself.
+const HERE: Pose = Pose { position: [0.0; 3], rotation: Solid::IDENTITY };
+
+thread_local! {
+    /// Scratch of a query, kept from one to the next.
+    static SCRATCH: Cell<Vec<Found>> = const { Cell::new(Vec::new()) };
+}
+
+pub(super) fn collide<B: Touches>(
+    (surface, pose_a): (&Surface, &Pose),
+    (body, pose_b): (&B, &Pose),
+    reach: f64,
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+) {
+    let position = Solid::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
+    let pose = Pose { position, rotation: pose_a.rotation.conjugate() * pose_b.rotation };
+    let near = body.around(&pose).grown(reach.max(0.0) + LEVEL * body.size());
+    let query = Query { surface, body, pose, reach };
+    let mut found = SCRATCH.take();
+    found.clear();
+    let mut deep = None;
+    surface.near(&near, |triangle| query.touch(triangle as usize, &mut found, &mut deep));
+    if let (true, Some((_, triangle))) = (found.is_empty(), deep) {
+        query.touch_front(triangle, &mut found);
+    }
+    thin(&mut found, LEVEL * body.size());
+    for &Found { feature, point, normal, gap } in &found {
+        let world = along(pose_a.position, 1.0, Solid::rotate(pose_a.rotation, point));
+        emit(feature, world, Solid::rotate(pose_a.rotation, normal), gap);
+    }
+    SCRATCH.set(found);
+}
+
+/// A surface and a body in its frame.
+struct Query<'a, B> {
+    surface: &'a Surface,
+    body: &'a B,
+    pose: Pose,
+    reach: f64,
+}
+
+impl<B: Touches> Query<'_, B> {
+    /// Adds the points that the body has with one triangle. Of triangles that have none but traces of their borders where the surface bends,
+    /// `deep` gets the gap and number of the one that the body leaves soonest along its normal.
+    fn touch(&self, number: usize, found: &mut Vec<Found>, deep: &mut Option<(f64, usize)>) {
+        let (surface, body) = (self.surface, self.body);
+        let (triangle, front) = (self.triangle(number), surface.normal(number));
+        let level = 16.0 * LEVEL * (triangle.radius() + body.size());
+        let first = found.len();
+        let (mut flat, mut bent) = (false, false);
+        body.touch(&self.pose, &triangle, self.reach, &mut |own, point, normal, gap| {
+            let feature = on_piece(number, own);
+            if surface.is_front(number, normal) {
+                found.push(Found { feature, point, normal: front, gap });
+                return;
+            }
+            let on = surface.place(number, along(point, -0.5 * gap, normal), level);
+            if surface.admits(number, on, normal) {
+                found.push(Found { feature, point, normal, gap });
+            } else if gap <= level && on != On::Off {
+                flat |= surface.is_flat(number, on);
+                bent = true;
+            }
+        });
+        let in_front = dot(front, sub(self.pose.position, triangle.corners[0])) > 0.0;
+        if flat && in_front {
+            found.truncate(first);
+            self.touch_front(number, found);
+        } else if bent && in_front && found.is_empty() {
+            let mut gap = f64::INFINITY;
+            body.touch_front(&self.pose, &triangle, self.reach, &mut |_, _, _, one| gap = gap.min(one));
+            if gap.is_finite() && deep.is_none_or(|(least, _)| gap > least) {
+                *deep = Some((gap, number));
+            }
+        }
+    }
+
+    /// Adds the points that the body has along the normal of a triangle.
+    fn touch_front(&self, number: usize, found: &mut Vec<Found>) {
+        let normal = self.surface.normal(number);
+        self.body.touch_front(&self.pose, &self.triangle(number), self.reach, &mut |own, point, _, gap| {
+            found.push(Found { feature: on_piece(number, own), point, normal, gap });
+        });
+    }
+
+    fn triangle(&self, number: usize) -> Triangle {
+        Triangle::new(self.surface.corners(number), self.surface.normal(number))
+    }
+}

@@ -1,0 +1,70 @@
+//! Capsules and cylinders and a triangle.
+
+use super::super::curved::{Convex, Hull, Segment, Touch, Tube, contacts_along, seen_from};
+use super::super::{Pose, capsule_facets, cylinder_facets};
+use super::{HERE, LEVEL, Touches, Triangle};
+use crate::detect::narrow::vector::along;
+use crate::mesh::Aabb;
+use crate::shape::solid::{Capsule, Cylinder, Faceted};
+use crate::space::{Solid, Space};
+
+impl Touches for Capsule {
+    fn around(&self, pose: &Pose) -> Aabb {
+        let axis = Solid::rotate(pose.rotation, [0.0, 0.0, self.half]);
+        Aabb::around([1.0, -1.0].map(|end| along(pose.position, end, axis))).grown(self.radius)
+    }
+
+    fn size(&self) -> f64 {
+        self.half + self.radius
+    }
+
+    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+        capsule_facets::collide((self, pose), (triangle, &HERE), reach, &mut turned(emit));
+    }
+
+    fn touch_front(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+        front(self, (&Hull::own(&Segment { half: self.half }), self.radius), pose, triangle, reach, emit);
+    }
+}
+
+impl Touches for Cylinder {
+    fn around(&self, pose: &Pose) -> Aabb {
+        let tube = Tube::new(self, pose);
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let high = [x, y, z].map(|axis| tube.height(axis));
+        let low = [x, y, z].map(|axis| -tube.height(axis.map(|k| -k)));
+        Aabb { low, high }
+    }
+
+    fn size(&self) -> f64 {
+        self.half + self.radius
+    }
+
+    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+        cylinder_facets::collide((self, pose), (triangle, &HERE), reach, &mut turned(emit));
+    }
+
+    fn touch_front(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+        front(self, (&Tube::own(self), 0.0), pose, triangle, reach, emit);
+    }
+}
+
+/// Contacts of a body that come first in their pair, as those of a triangle that does.
+fn turned(emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) -> impl FnMut(u64, [f64; 3], [f64; 3], f64) {
+    move |feature, point, normal, gap| emit(feature, point, normal.map(|x| -x), gap)
+}
+
+/// What a body that is a core grown by a radius has along the normal of a triangle.
+fn front(
+    body: &impl Touches,
+    (core, radius): (&impl Convex, f64),
+    pose: &Pose,
+    triangle: &Triangle,
+    reach: f64,
+    emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+) {
+    let other = Hull { body: triangle, pose: seen_from(pose, &HERE) };
+    let into = Solid::unrotate(pose.rotation, triangle.normal(Triangle::FRONT).map(|x| -x));
+    let touch = Touch { radii: [radius, 0.0], level: LEVEL * (body.size() + triangle.radius()), reach };
+    contacts_along((core, &other), into, &touch, pose, &mut turned(emit));
+}
