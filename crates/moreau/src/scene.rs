@@ -40,9 +40,11 @@ mod packing;
 mod path;
 mod points;
 mod radii;
+mod shape;
 mod source;
 mod spec;
 mod start;
+mod triangles;
 mod values;
 
 pub use builders::{BUILDERS, Build, BuildKind};
@@ -51,9 +53,9 @@ pub use estimate::Estimate;
 pub use events::{DriveSpec, SinkSpec, SourceSpec};
 pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Range};
 pub use joints::{JointKindSpec, JointSpec};
+pub use shape::{PartSpec, ShapeSpec};
 pub use spec::{
-    BodySpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, PartSpec, ShapeSpec, Solver, StartSpec,
-    Time,
+    BodySpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver, StartSpec, Time,
 };
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 

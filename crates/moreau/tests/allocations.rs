@@ -35,8 +35,13 @@ static ALLOCATOR: Counting = Counting;
 #[test]
 fn balls_at_rest_take_steps_without_allocations() {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/box-of-balls.toml");
-    for law in ["frictionless = {}", "coulomb = { friction = 0.3 }"] {
-        let sets = ["generate.0.count=100".to_owned(), "time.step=1e-3".to_owned(), format!("default_law={{ {law} }}")];
+    let mesh = "bodies=[{ shape.height_field = { spacing = [1e-3, 1e-3], heights = ROWS }, material = \"glass\", position = [0, 0, 1e-5] }]";
+    let mesh = mesh.replace("ROWS", &format!("{:?}", vec![vec![0.0; 21]; 21]));
+    for (law, ground) in
+        [("frictionless = {}", ""), ("coulomb = { friction = 0.3 }", ""), ("coulomb = { friction = 0.3 }", &mesh)]
+    {
+        let mut sets = vec!["generate.0.count=100".to_owned(), "time.step=1e-3".to_owned(), format!("default_law={{ {law} }}")];
+        sets.extend((!ground.is_empty()).then(|| ground.to_owned()));
         let scene = Scene::load_with(&path, &sets).unwrap_or_else(|error| panic!("{error}"));
         let AnyWorld::Solid(mut world) = scene.build(u64::MAX).unwrap() else { panic!("a scene in space") };
         let mut work = Workspace::default();

@@ -224,7 +224,7 @@ fn vectors_and_shapes_fit_the_dimension() {
         "shape.ball = { radius = 0.1 }",
         "shape.disk = { radius = 0.1 }",
         "bodies[1].shape",
-        &["ball, box, capsule, cylinder, polyhedron, compound and half_space"],
+        &["ball, box, capsule, cylinder, polyhedron, compound, mesh, height_field and half_space"],
     );
     broken(PLANE, "min = [0.0, 0.0]", "min = [0.0, 0.0, 0.0]", "containers[0].min", &["3 components where dimension = 2"]);
     broken(PLANE, "spin = 1.0", "spin = [0.0, 0.0, 1.0]", "bodies[0].spin", &["expected one number in the plane"]);

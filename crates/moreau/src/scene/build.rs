@@ -18,14 +18,14 @@ use crate::world::{StepSettings, World};
 /// Makes the world of a scene that passed the checks.
 pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene) -> Result<World<S, D, N>, Fault> {
     let mut bodies = Bodies::default();
-    for body in &scene.bodies {
-        if let Some(body) = explicit::<S, D, N>(scene, body) {
+    for (i, body) in scene.bodies.iter().enumerate() {
+        if let Some(body) = explicit::<S, D, N>(scene, body, &key_path!["bodies", i, "shape"])? {
             bodies.push(body);
         }
     }
     for (i, build) in scene.build.iter().enumerate() {
         for (number, body) in (0..).zip(builders::bodies::<S, D, N>(scene, i, build)?) {
-            let body = explicit::<S, D, N>(scene, &body).ok_or_else(|| {
+            let body = explicit::<S, D, N>(scene, &body, &key_path!["build", i, "kind"])?.ok_or_else(|| {
                 let message = format!("{} has no volume that can be told from rounding", build.label_of(i, number));
                 Fault::new(key_path!["build", i, "kind"], message, "expected sizes that differ less from each other")
             })?;
@@ -73,12 +73,22 @@ pub(super) fn material(scene: &Scene, name: &str) -> (u16, f64) {
     (number, scene.materials.get(name).map_or(0.0, |material| material.density))
 }
 
-fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, spec: &BodySpec) -> Option<Body<S, D, N>> {
-    let rotation = S::rotation(spec.orientation.as_ref());
-    let (shape, pose) = S::place(&spec.shape, vector(&spec.position), rotation)?;
+/// The body of these words, of which `path` is where they give its shape.
+fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(
+    scene: &Scene,
+    spec: &BodySpec,
+    path: &KeyPath,
+) -> Result<Option<Body<S, D, N>>, Fault> {
+    let (position, rotation) = (vector(&spec.position), S::rotation(spec.orientation.as_ref()));
+    let placed = match S::of_triangles(&spec.shape, position, rotation) {
+        Some(Ok(placed)) => Some(placed),
+        Some(Err(message)) => return Err(Fault::new(path.then(spec.shape.name()), message, "expected triangles that make a body")),
+        None => S::place(&spec.shape, position, rotation),
+    };
+    let Some((shape, pose)) = placed else { return Ok(None) };
     let velocity = S::join(vector(&spec.velocity), spec.spin.as_ref());
     let (material, density) = material(scene, &spec.material);
-    Some(Body {
+    Ok(Some(Body {
         shape,
         velocity: velocity_in_body::<S, D, N>(pose.rotation, &velocity),
         pose,
@@ -86,7 +96,7 @@ fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, 
         material,
         motion: if spec.motion() == MotionKind::Free { Motion::Free } else { Motion::Driven },
         load: S::join(vector(&spec.force), spec.torque.as_ref()),
-    })
+    }))
 }
 
 fn walls<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene, spec: &Container, bodies: &mut Bodies<S, D, N>) {

@@ -6,6 +6,7 @@ mod events;
 pub(super) mod generate;
 mod joints;
 mod plane;
+mod solid;
 
 pub(super) use plane::{Refusal, polygon_error, polyline_error};
 

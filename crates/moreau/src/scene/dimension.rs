@@ -1,6 +1,7 @@
 //! What a scene makes differently in the plane and in space: shapes, orientations and velocities.
 
-use super::spec::{PartSpec, ShapeSpec};
+use super::shape::{PartSpec, ShapeSpec};
+use super::triangles::{self, Shaped};
 use super::values::{Angular, Numbers, Orientation, Turn};
 use crate::shape::plane::{Disk, HalfPlane, Polygon, Polyline, decompose};
 use crate::shape::solid::{Ball, Cuboid, Cylinder, HalfSpace, Polyhedron};
@@ -13,6 +14,11 @@ pub(super) trait SceneSpace<const D: usize, const N: usize>: Space<D, N> {
     /// A shape in its place: where its centre of mass is and how its principal frame is turned; `None` for one of the other
     /// dimension.
     fn place(spec: &ShapeSpec, position: [f64; D], rotation: Self::Rotation) -> Option<Placed<Self, D, N>>;
+
+    /// A shape of triangles in its place, or what is wrong with it; nothing for other shapes.
+    fn of_triangles(_: &ShapeSpec, _: [f64; D], _: Self::Rotation) -> Option<Result<Placed<Self, D, N>, String>> {
+        None
+    }
 
     /// A ball or a disk.
     fn round(radius: f64) -> Self::Shape;
@@ -145,8 +151,9 @@ impl SceneSpace<3, 6> for Solid {
                 let &[x, y, z] = size.as_slice() else { return None };
                 Some((Cuboid { half: [0.5 * x, 0.5 * y, 0.5 * z] }.into(), Pose { position, rotation }))
             }
-            ShapeSpec::Polyhedron { points } => {
-                let (shape, own) = Polyhedron::hull(&points.iter().map(|point| point.0).collect::<Vec<_>>()).ok()?;
+            ShapeSpec::Polyhedron { points, flat, .. } => {
+                let points: Vec<_> = points.iter().map(|point| point.0).collect();
+                let (shape, own) = Polyhedron::hull_within(&points, flat.unwrap_or(ShapeSpec::FLAT)).ok()?;
                 Some((shape.into(), placed(Pose { position, rotation }, own)))
             }
             ShapeSpec::Compound { parts } => {
@@ -162,6 +169,11 @@ impl SceneSpace<3, 6> for Solid {
             ShapeSpec::HalfSpace { normal: Numbers(normal) } => Some(Self::wall(position, unit(*normal))),
             _ => None,
         }
+    }
+
+    fn of_triangles(spec: &ShapeSpec, position: [f64; 3], rotation: DQuat) -> Option<Result<Placed<Self, 3, 6>, String>> {
+        let shape = triangles::shape(spec)?;
+        Some(shape.map(|(shape, own): Shaped| (shape, placed(Pose { position, rotation }, own))))
     }
 
     fn round(radius: f64) -> Self::Shape {

@@ -1,6 +1,6 @@
 //! What a scene will need, from its counts alone: nothing is generated for it.
 
-use super::Scene;
+use super::{Scene, triangles};
 use super::error::Fault;
 use super::path::key_path;
 use super::spec::MotionKind;
@@ -10,6 +10,9 @@ const BODY_BYTES: u64 = 600;
 
 /// Memory of one contact in all arrays of a run, bytes: points, H, blocks of W, impulses and those of the step before.
 const CONTACT_BYTES: u64 = 700;
+
+/// Memory of one triangle of a surface, bytes: its corners, normals, neighbours, and what it is found by.
+const TRIANGLE_BYTES: u64 = 300;
 
 /// What a scene holds and needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +47,9 @@ pub(super) fn estimate(scene: &Scene) -> Estimate {
     let bodies = generated.saturating_add(to_come).saturating_add(scene.explicit_bodies());
     let free_bodies = generated.saturating_add(to_come).saturating_add(free);
     let contacts = free_bodies.saturating_mul(dimension as u64);
-    let memory_bytes = bodies.saturating_mul(BODY_BYTES).saturating_add(contacts.saturating_mul(CONTACT_BYTES));
+    let triangles: u64 = scene.bodies.iter().map(|body| triangles::count(&body.shape)).sum();
+    let each = [(bodies, BODY_BYTES), (contacts, CONTACT_BYTES), (triangles, TRIANGLE_BYTES)];
+    let memory_bytes = each.iter().fold(0_u64, |all, (count, bytes)| all.saturating_add(count.saturating_mul(*bytes)));
     Estimate { bodies, free_bodies, contacts, generated_mass, memory_bytes }
 }
 

@@ -1,11 +1,15 @@
 //! Files that a scene names: they are read with it, and what they hold takes their place.
 
+mod solid;
+mod unread;
+
 use super::check::{Refusal, polygon_error, polyline_error};
 use super::error::Fault;
 use super::path::{KeyPath, key_path};
 use super::points::{Outline, outlines};
-use super::spec::{BodySpec, Import, PartSpec, ShapeSpec};
-use super::{Dimension, Numbers, Scene};
+use super::shape::{PartSpec, ShapeSpec};
+use super::spec::{BodySpec, Import, MotionKind};
+use super::{Numbers, Scene};
 use std::path::Path;
 
 /// Reads the files of a scene; their paths are relative to `folder`.
@@ -15,10 +19,19 @@ pub(super) fn read(scene: &mut Scene, folder: &Path) -> Result<(), Fault> {
     }
     for (i, import) in std::mem::take(&mut scene.import).into_iter().enumerate() {
         let path = key_path!["import", i];
-        if scene.dimension != Dimension::Two {
-            return Err(Fault::new(path, "polygons where dimension = 3", "expected dimension = 2"));
+        let (name, dimension) = match import {
+            Import::Polygons { .. } => ("polygons", 2),
+            Import::Assembly { .. } => ("assembly", 3),
+        };
+        let path = path.then(name);
+        if scene.dimension.number() != dimension {
+            let message = format!("{name} where dimension = {}", scene.dimension.number());
+            return Err(Fault::new(path, message, format!("expected dimension = {dimension}")));
         }
-        polygons(scene, import, i, folder, &path.then("polygons"))?;
+        match dimension {
+            2 => polygons(scene, import, i, folder, &path)?,
+            _ => solid::assembly(scene, import, i, folder, &path)?,
+        }
     }
     Ok(())
 }
@@ -38,7 +51,7 @@ fn shape(spec: &mut ShapeSpec, folder: &Path, path: &KeyPath) -> Result<(), Faul
             let mut parts = parts.iter_mut().enumerate();
             parts.try_for_each(|(i, PartSpec { shape: spec, .. })| shape(spec, folder, &path.then("parts").then(i).then("shape")))
         }
-        _ => Ok(()),
+        _ => solid::shape(spec, folder, &path),
     }
 }
 
@@ -70,15 +83,8 @@ fn one(
 fn all(name: &str, folder: &Path, path: &KeyPath, check: Check<'_>) -> Result<Vec<Outline>, Fault> {
     let place = folder.join(name);
     let fault = |message: String, hint: &str| Fault::new(path.clone(), message, hint);
-    let unread = |e: &dyn std::fmt::Display| {
-        let hint = "expected a file, by its path from the folder of the scene";
-        fault(format!("cannot read {}: {e}", place.display()), hint)
-    };
-    // A device or a pipe might have no end.
-    if !std::fs::metadata(&place).map_err(|e| unread(&e))?.is_file() {
-        return Err(unread(&"it is not a file"));
-    }
-    let text = std::fs::read_to_string(&place).map_err(|e| unread(&e))?;
+    unread::is_file(&place).map_err(|e| unread::fault(path, &place, &e))?;
+    let text = std::fs::read_to_string(&place).map_err(|e| unread::fault(path, &place, &e))?;
     let found = outlines(&text).map_err(|wrong| fault(format!("{name}:{}: {}", wrong.line, wrong.message), wrong.hint))?;
     if found.is_empty() {
         return Err(fault(format!("{name} has no points"), "expected a row x,y a point"));
@@ -94,15 +100,25 @@ fn all(name: &str, folder: &Path, path: &KeyPath, check: Check<'_>) -> Result<Ve
 }
 
 fn polygons(scene: &mut Scene, import: Import, number: usize, folder: &Path, path: &KeyPath) -> Result<(), Fault> {
-    let Import::Polygons { file, material, decompose, motion } = import;
+    let Import::Polygons { file, material, decompose, motion } = import else { return Ok(()) };
     let found = all(&file, folder, &path.then("file"), &|outline| polygon_error(outline.points.clone(), decompose))?;
     // Here, because the body that a later check would name is not in the text.
     super::check::material(scene, path.then("material"), &material)?;
-    scene.bodies.extend(found.into_iter().enumerate().map(|(i, outline)| BodySpec {
-        name: Some(format!("import[{number}] {}", outline.id.unwrap_or_else(|| i.to_string()))),
-        shape: ShapeSpec::Polygon { vertices: outline.points.into_iter().map(Numbers).collect(), file: None, decompose },
-        material: material.clone(),
-        position: vec![0.0, 0.0],
+    scene.bodies.extend(found.into_iter().enumerate().map(|(i, outline)| {
+        let name = format!("import[{number}] {}", outline.id.unwrap_or_else(|| i.to_string()));
+        let vertices = outline.points.into_iter().map(Numbers).collect();
+        body(name, ShapeSpec::Polygon { vertices, file: None, decompose }, &material, vec![0.0; 2], motion)
+    }));
+    Ok(())
+}
+
+/// A body at rest.
+fn body(name: String, shape: ShapeSpec, material: &str, position: Vec<f64>, motion: Option<MotionKind>) -> BodySpec {
+    BodySpec {
+        name: Some(name),
+        shape,
+        material: material.to_owned(),
+        position,
         orientation: None,
         velocity: Vec::new(),
         spin: None,
@@ -111,6 +127,5 @@ fn polygons(scene: &mut Scene, import: Import, number: usize, folder: &Path, pat
         torque: None,
         drive: Vec::new(),
         removed_at: None,
-    }));
-    Ok(())
+    }
 }

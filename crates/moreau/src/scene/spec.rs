@@ -3,7 +3,8 @@
 //! Everything is in SI units. The comments here are the reference of the format: they become the descriptions of the JSON schema.
 
 use super::events::DriveSpec;
-use super::values::{Angular, Numbers, Orientation};
+use super::shape::{ShapeSpec, is_false};
+use super::values::{Angular, Orientation};
 use crate::world::{OnFailure, Start};
 use moreau_solve::{Criterion, GlobalMethod, Kernels, Law, LocalMethod, Order, Parameter, Settings};
 use schemars::JsonSchema;
@@ -152,8 +153,8 @@ pub struct BodySpec {
     pub shape: ShapeSpec,
     /// The name of its material.
     pub material: String,
-    /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon, polyline, polyhedron or
-    /// compound the place of its coordinates' origin, so that the centre of mass is there plus the turned centroid.
+    /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon, polyline, polyhedron,
+    /// compound, mesh or height field the place of its coordinates' origin, so that the centre of mass is there plus the turned centroid.
     pub position: Vec<f64>,
     /// How it is turned: an angle in rad in the plane, a quaternion [x, y, z, w] in space, or in both a table such as
     /// { axis = [0, 0, 1], degrees = 30 }, in the plane without the axis. Not for half-spaces, which have a normal.
@@ -163,7 +164,8 @@ pub struct BodySpec {
     pub velocity: Vec<f64>,
     /// Spin, rad/s; default zero.
     pub spin: Option<Angular>,
-    /// How it moves; default as its first drive says if that begins at 0, else free, of half-spaces fixed.
+    /// How it moves; default as its first drive says if that begins at 0, else free, of what has no mass (half-spaces,
+    /// polylines, surfaces) fixed.
     pub motion: Option<MotionKind>,
     /// A constant force on the centre of mass, N; default zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -176,146 +178,6 @@ pub struct BodySpec {
     pub drive: Vec<DriveSpec>,
     /// When it is taken out of the scene, s: at the first beginning of a step at or after this time; default never.
     pub removed_at: Option<f64>,
-}
-
-/// The form of a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum ShapeSpec {
-    /// A ball; in space.
-    Ball {
-        /// Its radius, m.
-        radius: f64,
-    },
-    /// A box, in the plane a rectangle.
-    Box {
-        /// The lengths of its edges along its own axes, m: two in the plane, three in space.
-        #[schemars(length(min = 2, max = 3))]
-        size: Vec<f64>,
-    },
-    /// A convex polyhedron; in space.
-    Polyhedron {
-        /// Its corners in any order, m: the body is their convex hull.
-        points: Vec<Numbers<3>>,
-    },
-    /// A circular cylinder, its axis along its own z axis; in space.
-    Cylinder {
-        /// Its radius, m.
-        radius: f64,
-        /// Its length from cap to cap, m.
-        length: f64,
-    },
-    /// Everything below a plane; in space.
-    HalfSpace {
-        /// The direction out of it, of any length.
-        normal: Numbers<3>,
-    },
-    /// A disk; in the plane.
-    Disk {
-        /// Its radius, m.
-        radius: f64,
-    },
-    /// All points within a radius of a segment around the centre, which in the plane is of the x axis and in space of the z axis.
-    Capsule {
-        /// The radius, m.
-        radius: f64,
-        /// The length of the segment, m; the whole is longer by twice the radius.
-        length: f64,
-    },
-    /// A polygon; in the plane. It must be convex, or else cut into convex pieces.
-    Polygon {
-        /// Its vertices in order around it, m.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        vertices: Vec<Numbers<2>>,
-        /// In place of `vertices` a table of them, CSV, beside the scene: a row `x,y` a vertex, in m; `#` begins a comment. For a file of
-        /// several polygons see `import`.
-        file: Option<String>,
-        /// Whether it may be concave: it is then a compound of convex pieces, with the mass of the whole.
-        #[serde(default, skip_serializing_if = "is_false")]
-        decompose: bool,
-    },
-    /// A chain of segments, fixed or driven; in the plane. It is solid to the right of the way along it: a ground by points from left to
-    /// right has its solid below.
-    Polyline {
-        /// Its points in order, m.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        points: Vec<Numbers<2>>,
-        /// In place of `points` a table of them, CSV, beside the scene: a row `x,y` a point, in m; `#` begins a comment.
-        file: Option<String>,
-        /// Whether a last segment goes back to the first point. Clockwise it is an island, counter-clockwise a vessel.
-        #[serde(default, skip_serializing_if = "is_false")]
-        closed: bool,
-    },
-    /// Several convex shapes held together. Mass, centre and moments of inertia are the sums of the parts', so that where
-    /// parts overlap their mass counts as often as they do.
-    Compound {
-        /// The parts, at most 1024.
-        parts: Vec<PartSpec>,
-    },
-    /// Everything below a line; in the plane.
-    HalfPlane {
-        /// The direction out of it, of any length.
-        normal: Numbers<2>,
-    },
-}
-
-impl ShapeSpec {
-    /// Its name in scene files.
-    pub fn name(&self) -> &'static str {
-        match self {
-            ShapeSpec::Ball { .. } => "ball",
-            ShapeSpec::Box { .. } => "box",
-            ShapeSpec::Polyhedron { .. } => "polyhedron",
-            ShapeSpec::Cylinder { .. } => "cylinder",
-            ShapeSpec::HalfSpace { .. } => "half_space",
-            ShapeSpec::Disk { .. } => "disk",
-            ShapeSpec::Capsule { .. } => "capsule",
-            ShapeSpec::Polygon { .. } => "polygon",
-            ShapeSpec::Polyline { .. } => "polyline",
-            ShapeSpec::Compound { .. } => "compound",
-            ShapeSpec::HalfPlane { .. } => "half_plane",
-        }
-    }
-
-    /// The numbers of coordinates that it can live in.
-    pub fn dimensions(&self) -> &'static [usize] {
-        match self {
-            ShapeSpec::Box { .. } | ShapeSpec::Capsule { .. } | ShapeSpec::Compound { .. } => &[2, 3],
-            ShapeSpec::Ball { .. } | ShapeSpec::Cylinder { .. } | ShapeSpec::Polyhedron { .. } | ShapeSpec::HalfSpace { .. } => {
-                &[3]
-            }
-            ShapeSpec::Disk { .. } | ShapeSpec::Polygon { .. } | ShapeSpec::HalfPlane { .. } | ShapeSpec::Polyline { .. } => &[2],
-        }
-    }
-
-    /// Whether it has no end or no inside, and so no mass: it can only be fixed or driven.
-    pub fn is_unbounded(&self) -> bool {
-        matches!(self, ShapeSpec::Polyline { .. }) || self.has_normal()
-    }
-
-    /// Whether a normal says how it is turned.
-    pub fn has_normal(&self) -> bool {
-        matches!(self, ShapeSpec::HalfSpace { .. } | ShapeSpec::HalfPlane { .. })
-    }
-}
-
-/// A part of a compound.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PartSpec {
-    /// Its form, one that could be a free body's.
-    pub shape: ShapeSpec,
-    /// Where it is in the compound's coordinates, m; default their origin.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub position: Vec<f64>,
-    /// How it is turned there.
-    pub orientation: Option<Orientation>,
-}
-
-/// Whether a value is left out when a scene is written.
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks by reference")]
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 /// Bodies from a file.
@@ -333,6 +195,20 @@ pub enum Import {
         #[serde(default, skip_serializing_if = "is_false")]
         decompose: bool,
         /// How they move; default free.
+        motion: Option<MotionKind>,
+    },
+    /// The blocks of an assembly; in space. Those that the file calls supports are fixed.
+    Assembly {
+        /// A file that COMPAS wrote, JSON, beside the scene.
+        file: String,
+        /// The name of their material.
+        material: String,
+        /// By what all coordinates are multiplied, such as 0.001 for a file in mm; default 1.
+        scale: Option<f64>,
+        /// Whether blocks may be concave; see `mesh`.
+        #[serde(default, skip_serializing_if = "is_false")]
+        decompose: bool,
+        /// How those move that are no supports; default free.
         motion: Option<MotionKind>,
     },
 }
@@ -438,9 +314,9 @@ impl Default for StartSpec {
 }
 
 impl BodySpec {
-    /// How it moves at the start: as given, or as its first drive says, else freely, and not at all where it goes on without end.
+    /// How it moves at the start: as given, or as its first drive says, else freely, and not at all where it has no mass.
     pub fn motion(&self) -> MotionKind {
-        let otherwise = if self.shape.is_unbounded() { MotionKind::Fixed } else { MotionKind::Free };
+        let otherwise = if self.shape.has_mass() { MotionKind::Free } else { MotionKind::Fixed };
         self.motion.or(self.first_drive().map(DriveSpec::motion)).unwrap_or(otherwise)
     }
 

@@ -1,6 +1,6 @@
 //! Random convex stones.
 
-use super::pieces::{polyhedron, prism};
+use super::pieces::prism;
 use super::{Builder, Piece, Site};
 use crate::scene::build::centres;
 use crate::scene::check::generate::{arranged, radii};
@@ -10,6 +10,7 @@ use crate::random::{Random, square};
 use crate::shape::solid::Polyhedron;
 use crate::space::{Solid, Space};
 use glam::DQuat;
+use crate::scene::ShapeSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -174,7 +175,7 @@ impl Builder for Ballast {
         let placed = self.place(site, [&mut sizes, &mut places], &stones)?;
         let piece = |(stone, (radius, position)): (Vec<[f64; 3]>, _)| {
             let points = stone.into_iter().map(|p| p.map(scaled(radius)));
-            Piece { shape: polyhedron(points), position }
+            Piece { shape: ShapeSpec::polyhedron(points), position }
         };
         Ok(stones.into_iter().zip(placed).map(piece).collect())
     }

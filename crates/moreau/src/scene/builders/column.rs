@@ -1,8 +1,9 @@
 //! A column of drums.
 
-use super::pieces::{polar, polyhedron};
+use super::pieces::polar;
 use super::{Builder, Piece, Site};
 use crate::scene::error::Fault;
+use crate::scene::ShapeSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +41,7 @@ impl Column {
         };
         let sides = self.sides;
         let corner = |i: u64| polar(radius, 360.0 * (i as f64 + 0.5) / sides as f64);
-        Piece::at_origin(polyhedron([low, high].into_iter().flat_map(|up| (0..sides).map(corner).map(move |[x, y]| [x, y, up]))))
+        Piece::at_origin(ShapeSpec::polyhedron([low, high].into_iter().flat_map(|up| (0..sides).map(corner).map(move |[x, y]| [x, y, up]))))
     }
 }
 

@@ -1,8 +1,9 @@
 //! A hemispherical dome of voussoirs.
 
-use super::pieces::{polar, polyhedron};
+use super::pieces::polar;
 use super::{Builder, Piece, Site};
 use crate::scene::error::Fault;
+use crate::scene::ShapeSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -55,12 +56,12 @@ impl Dome {
 
     fn stone(&self, course: u64, i: u64) -> Piece {
         let ends = |sphere: f64| [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(bed, side)| self.corner(course + bed, i + side, sphere));
-        Piece::at_origin(polyhedron(self.spheres().into_iter().flat_map(ends)))
+        Piece::at_origin(ShapeSpec::polyhedron(self.spheres().into_iter().flat_map(ends)))
     }
 
     fn keystone(&self) -> Piece {
         let ring = |sphere: f64| (0..self.stones).map(move |i| self.corner(self.courses, i, sphere));
-        Piece::at_origin(polyhedron(self.spheres().into_iter().flat_map(ring)))
+        Piece::at_origin(ShapeSpec::polyhedron(self.spheres().into_iter().flat_map(ring)))
     }
 
     fn is_closed(&self) -> bool {

@@ -3,7 +3,7 @@
 use super::pieces::{extruded, polar, prism};
 use super::{Builder, Piece, Site};
 use crate::scene::error::Fault;
-use crate::scene::spec::{MotionKind, PartSpec, ShapeSpec};
+use crate::scene::{MotionKind, PartSpec, ShapeSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,9 +1,9 @@
 //! A hopper.
 
-use super::pieces::polyhedron;
 use super::{Builder, Piece, Site};
 use crate::scene::error::Fault;
 use crate::scene::spec::MotionKind;
+use crate::scene::ShapeSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -84,7 +84,7 @@ impl Builder for Hopper {
         // Neighbouring plates meet in the planes of the square's diagonals. Quarter turns of the first: +x, +y, −x, −y.
         let plate = |[x, y]: [f64; 2]| {
             let corner = move |[half, up]: [f64; 2]| [1.0, -1.0].map(|side| [half * (x - side * y), half * (y + side * x), up]);
-            Piece::at_origin(polyhedron(rings.into_iter().flat_map(corner)))
+            Piece::at_origin(ShapeSpec::polyhedron(rings.into_iter().flat_map(corner)))
         };
         Ok([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(plate).into())
     }

@@ -1,6 +1,6 @@
 //! The bodies of a builder, and what they are made of.
 
-use crate::scene::spec::ShapeSpec;
+use crate::scene::ShapeSpec;
 use crate::scene::values::Numbers;
 
 /// One body in the coordinates of its builder.
@@ -42,7 +42,7 @@ pub(super) fn prism(profile: Vec<[f64; 2]>, depth: Option<f64>) -> ShapeSpec {
 
 /// The convex prism over a profile between two places along y.
 pub(super) fn extruded(profile: &[[f64; 2]], between: [f64; 2]) -> ShapeSpec {
-    polyhedron(between.into_iter().flat_map(|y| profile.iter().map(move |&[x, up]| [x, y, up])))
+    ShapeSpec::polyhedron(between.into_iter().flat_map(|y| profile.iter().map(move |&[x, up]| [x, y, up])))
 }
 
 /// The profile of what lies between two x and two heights.
@@ -54,9 +54,4 @@ pub(super) fn rectangle([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> Vec
 pub(super) fn polar(radius: f64, degrees: f64) -> [f64; 2] {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     [radius * cosine, radius * sine]
-}
-
-/// The convex hull of these points.
-pub(super) fn polyhedron(points: impl IntoIterator<Item = [f64; 3]>) -> ShapeSpec {
-    ShapeSpec::Polyhedron { points: points.into_iter().map(Numbers).collect() }
 }

@@ -1,11 +1,11 @@
 //! Checks of single bodies and of containers.
 
 use super::plane::{compound, polygon, polyline};
+use super::solid::pointed;
 use super::{angular, material, plural, positive, region, vector};
 use crate::scene::error::Fault;
 use crate::scene::path::{KeyPath, key_path};
 use crate::scene::{BodySpec, Container, Face, MotionKind, Numbers, Orientation, Scene, ShapeSpec, Turn};
-use crate::shape::solid::Polyhedron;
 use std::collections::BTreeMap;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
@@ -42,7 +42,7 @@ fn motion(body: &BodySpec, path: &KeyPath) -> Result<(), Fault> {
     let moves = !body.velocity.is_empty() || body.spin.is_some();
     let loaded = !body.force.is_empty() || body.torque.is_some();
     match body.motion() {
-        MotionKind::Free if body.shape.is_unbounded() => {
+        MotionKind::Free if !body.shape.has_mass() => {
             let message = format!("a {} that is free: it has no mass", body.shape.name());
             Err(Fault::new(path.then("motion"), message, "expected \"fixed\" or \"driven\""))
         }
@@ -98,7 +98,8 @@ pub(super) fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<
     let dimension = scene.dimension.number();
     if !shape.dimensions().contains(&dimension) {
         let plane = "disk, box, polygon, capsule, compound, half_plane and polyline";
-        let known = if dimension == 2 { plane } else { "ball, box, capsule, cylinder, polyhedron, compound and half_space" };
+        let solid = "ball, box, capsule, cylinder, polyhedron, compound, mesh, height_field and half_space";
+        let known = if dimension == 2 { plane } else { solid };
         let message = format!("a {} where dimension = {dimension}", shape.name());
         return Err(Fault::new(path.clone(), message, format!("the shapes of dimension {dimension} are {known}")));
     }
@@ -117,16 +118,9 @@ pub(super) fn shape(scene: &Scene, shape: &ShapeSpec, path: &KeyPath) -> Result<
         }
         ShapeSpec::Polygon { vertices, decompose, file } => polygon(&path, vertices, *decompose, file.as_deref()),
         ShapeSpec::Polyline { points, closed, file } => polyline(&path, points, *closed, file.as_deref()),
-        ShapeSpec::Polyhedron { points } => polyhedron(&path.then("points"), points),
+        ShapeSpec::Polyhedron { .. } | ShapeSpec::Mesh { .. } | ShapeSpec::HeightField { .. } => pointed(shape, &path),
         ShapeSpec::Compound { parts } => compound(scene, &path.then("parts"), parts),
     }
-}
-
-fn polyhedron(path: &KeyPath, points: &[Numbers<3>]) -> Result<(), Fault> {
-    let Err(error) = Polyhedron::hull(&points.iter().map(|point| point.0).collect::<Vec<_>>()) else { return Ok(()) };
-    let hint = "expected the corners of a convex polyhedron, in any order";
-    let path = error.vertex().map_or(path.clone(), |vertex| path.then(vertex));
-    Err(Fault::new(path, format!("not a convex polyhedron: {error}"), hint))
 }
 
 fn container_of(scene: &Scene, container: &Container, path: &KeyPath) -> Result<(), Fault> {

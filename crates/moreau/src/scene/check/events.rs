@@ -60,7 +60,7 @@ fn motion(body: &BodySpec, spec: &DriveSpec, path: &KeyPath) -> Result<(), Fault
             let hint = "give a velocity, position, spin or angle, a force or torque, or motion = \"free\" or \"fixed\"";
             Err(Fault::new(path.clone(), "a drive that does nothing", hint))
         }
-        (MotionKind::Free, _) if body.shape.is_unbounded() => {
+        (MotionKind::Free, _) if !body.shape.has_mass() => {
             let message = format!("a drive that frees a {}: it has no mass", body.shape.name());
             let part = if spec.motion.is_some() { path.then("motion") } else { path.clone() };
             Err(Fault::new(part, message, "expected a velocity, position, spin or angle, or motion = \"fixed\""))

@@ -5,7 +5,7 @@ use super::vector;
 use crate::scene::dimension::{self, points};
 use crate::scene::error::Fault;
 use crate::scene::path::KeyPath;
-use crate::scene::{Numbers, PartSpec, Scene};
+use crate::scene::{Numbers, PartSpec, Scene, ShapeSpec};
 use crate::shape::ShapeError;
 use crate::shape::plane::{Polygon, Polyline, decompose};
 
@@ -62,7 +62,11 @@ fn at(path: &KeyPath, key: &str, wrong: Option<Refusal>) -> Result<(), Fault> {
 pub(super) fn compound(scene: &Scene, path: &KeyPath, parts: &[PartSpec]) -> Result<(), Fault> {
     for (i, part) in parts.iter().enumerate() {
         let path = path.then(i);
-        if part.shape.is_unbounded() {
+        if let ShapeSpec::Mesh { .. } = part.shape {
+            let hint = "a mesh with decompose = true is a compound itself: make it a body of its own";
+            return Err(Fault::new(path.then("shape"), "a mesh as a part", hint));
+        }
+        if !part.shape.has_mass() {
             let message = format!("a {} as a part: it has no mass", part.shape.name());
             return Err(Fault::new(path.then("shape"), message, "expected a shape that a free body can have"));
         }

@@ -2,7 +2,7 @@
 
 use crate::detect::narrow::vector::{along, cross, dot, sub};
 use crate::mesh::{Aabb, Edges, Mesh, MeshError, NONE, Tree};
-use crate::shape::Figure;
+use crate::shape::{Figure, Polygons};
 use crate::space::Solid;
 use std::fmt;
 use std::sync::Arc;
@@ -178,6 +178,17 @@ impl fmt::Debug for Surface {
 impl Figure<Solid, 3, 6> for Surface {
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.0.radius)
+    }
+
+    fn is_convex(&self) -> bool {
+        false
+    }
+
+    fn polygons(&self) -> Polygons<3> {
+        let Mesh { points, triangles } = &self.0.mesh;
+        let mut all = Polygons::on(points.clone());
+        triangles.iter().for_each(|corners| all.push(corners.map(|corner| corner as usize)));
+        all
     }
 
     fn mass(&self, _: f64) -> [f64; 6] {
