@@ -54,9 +54,7 @@ pub use events::{DriveSpec, SinkSpec, SourceSpec};
 pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Range};
 pub use joints::{JointKindSpec, JointSpec};
 pub use shape::{PartSpec, ShapeSpec};
-pub use spec::{
-    BodySpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver, StartSpec, Time,
-};
+pub use spec::{BodySpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver, StartSpec, Time};
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 
 use crate::space::{Plane, Solid};

@@ -82,7 +82,9 @@ fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(
     let (position, rotation) = (vector(&spec.position), S::rotation(spec.orientation.as_ref()));
     let placed = match S::of_triangles(&spec.shape, position, rotation) {
         Some(Ok(placed)) => Some(placed),
-        Some(Err(message)) => return Err(Fault::new(path.then(spec.shape.name()), message, "expected triangles that make a body")),
+        Some(Err(message)) => {
+            return Err(Fault::new(path.then(spec.shape.name()), message, "expected triangles that make a body"));
+        }
         None => S::place(&spec.shape, position, rotation),
     };
     let Some((shape, pose)) = placed else { return Ok(None) };

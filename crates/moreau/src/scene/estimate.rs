@@ -1,9 +1,9 @@
 //! What a scene will need, from its counts alone: nothing is generated for it.
 
-use super::{Scene, triangles};
 use super::error::Fault;
 use super::path::key_path;
 use super::spec::MotionKind;
+use super::{Scene, triangles};
 
 /// Memory of one body in all arrays of a run, bytes: state, forces, detection and scratch.
 const BODY_BYTES: u64 = 600;

@@ -99,9 +99,8 @@ pub(super) fn assembly(scene: &mut Scene, import: Import, number: usize, folder:
     // Here, because the body that a later check would name is not in the text.
     check::material(scene, path.then("material"), &material)?;
     for block in found.blocks {
-        let shape = block_of(&block, scale, decompose).map_err(|(message, hint)| {
-            Fault::new(place.clone(), format!("{file}: block {:?}: {message}", block.key), hint)
-        })?;
+        let shape = block_of(&block, scale, decompose)
+            .map_err(|(message, hint)| Fault::new(place.clone(), format!("{file}: block {:?}: {message}", block.key), hint))?;
         let name = format!("import[{number}] {}", block.name.unwrap_or(block.key));
         let motion = if block.support { Some(MotionKind::Fixed) } else { motion };
         scene.bodies.push(body(name, shape, &material, vec![0.0; 3], motion));
