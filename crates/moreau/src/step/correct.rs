@@ -76,7 +76,8 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
     correction.reach.extend((0..bodies.len()).map(|i| {
         let radius = bodies.shape[i].bounding_radius().unwrap_or(0.0);
         let far = bodies.pose[i].position.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
-        part * radius + rounding(radius, far)
+        // Of what is driven, which may be all the ground, the size says nothing.
+        if bodies.is_free(i) { part * radius + rounding(radius, far) } else { rounding(radius, far) }
     }));
     let driven = |i: usize| !bodies.is_free(i);
     work.detector.detect::<S, N>(&bodies.shape, &bodies.pose, &correction.reach, driven, &mut correction.found);

@@ -151,7 +151,7 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
 }
 
 /// How far from body `i` contacts matter. Closed ones: rounding. On approach: what it may travel in the step, doubled for what
-/// other contacts add to its speed.
+/// other contacts add to its speed, and a part of its size; that of a driven body, which may be all the ground, says nothing of what comes near.
 fn reach<S: Space<D, N>, const D: usize, const N: usize>(
     world: &World<S, D, N>,
     i: usize,
@@ -169,7 +169,8 @@ fn reach<S: Space<D, N>, const D: usize, const N: usize>(
         let spin = (D..N).map(|k| v[k] * v[k]).sum::<f64>().sqrt();
         (0..D).map(|k| v[k] * v[k]).sum::<f64>().sqrt() + spin * radius
     };
-    2.0 * h * speed(free).max(speed(&world.bodies.velocity[i])) + 0.01 * radius + rounding
+    let beside = if world.bodies.is_free(i) { 0.01 * radius } else { 0.0 };
+    2.0 * h * speed(free).max(speed(&world.bodies.velocity[i])) + beside + rounding
 }
 
 /// Localises the contacts that were found into the system of the coordinates that they need.

@@ -20,6 +20,7 @@ use crate::detect::narrow::vector::{along, dot, sub};
 use crate::mesh::Aabb;
 use crate::shape::solid::{Faceted, On, Surface};
 use crate::space::{Solid, Space};
+use ball::nearest;
 use std::cell::Cell;
 use thin::{Found, thin};
 use triangle::Triangle;
@@ -31,6 +32,9 @@ pub(super) trait Touches {
 
     /// Radius of the ball around its position that holds it, m.
     fn size(&self) -> f64;
+
+    /// How far it goes in a direction: the greatest product of that with its points.
+    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64;
 
     /// Its contacts with a triangle, normals from that, by 32-bit features that ascend.
     fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64));
@@ -47,6 +51,12 @@ impl<F: Faceted> Touches for F {
 
     fn size(&self) -> f64 {
         self.radius()
+    }
+
+    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
+        let own = Solid::unrotate(pose.rotation, direction);
+        let highest = (0..self.vertices()).map(|i| dot(own, self.vertex(i))).fold(f64::NEG_INFINITY, f64::max);
+        dot(direction, pose.position) + highest
     }
 
     fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
@@ -104,6 +114,9 @@ impl<B: Touches> Query<'_, B> {
     /// `deep` gets the gap and number of the one that the body leaves soonest along its normal.
     fn touch(&self, number: usize, found: &mut Vec<Found>, deep: &mut Option<(f64, usize)>) {
         let (surface, body) = (self.surface, self.body);
+        if self.is_beyond(surface.corners(number)) {
+            return;
+        }
         let (triangle, front) = (self.triangle(number), surface.normal(number));
         let level = 16.0 * LEVEL * (triangle.radius() + body.size());
         let first = found.len();
@@ -133,6 +146,17 @@ impl<B: Touches> Query<'_, B> {
                 *deep = Some((gap, number));
             }
         }
+    }
+
+    /// Whether the body is out of reach along the line from the point of a triangle that is nearest to its middle, as most are of whose box it
+    /// is within reach.
+    fn is_beyond(&self, corners: [[f64; 3]; 3]) -> bool {
+        let nearest = nearest(corners, self.pose.position);
+        let way = sub(self.pose.position, nearest);
+        let length = dot(way, way).sqrt();
+        let back = way.map(|x| -x);
+        // In lengths of the way; of none nothing is beyond.
+        -self.body.height(&self.pose, back) - dot(way, nearest) > self.reach.max(0.0) * length
     }
 
     /// Adds the points that the body has along the normal of a triangle.

@@ -15,6 +15,10 @@ impl Touches for Ball {
         self.radius
     }
 
+    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
+        dot(direction, pose.position) + self.radius * dot(direction, direction).sqrt()
+    }
+
     fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
         let between = sub(pose.position, nearest(triangle.corners, pose.position));
         let square = dot(between, between);
@@ -29,7 +33,7 @@ impl Touches for Ball {
 }
 
 /// The point of a triangle nearest to another point, by the region in which that lies (Ericson 2005, section 5.1.5).
-fn nearest([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> [f64; 3] {
+pub(super) fn nearest([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> [f64; 3] {
     let (ab, ac) = (sub(b, a), sub(c, a));
     let towards = |from: [f64; 3]| [dot(ab, sub(point, from)), dot(ac, sub(point, from))];
     let ([a_b, a_c], [b_b, b_c], [c_b, c_c]) = (towards(a), towards(b), towards(c));

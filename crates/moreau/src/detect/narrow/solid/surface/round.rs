@@ -3,7 +3,7 @@
 use super::super::curved::{Convex, Hull, Segment, Touch, Tube, contacts_along, seen_from};
 use super::super::{Pose, capsule_facets, cylinder_facets};
 use super::{HERE, LEVEL, Touches, Triangle};
-use crate::detect::narrow::vector::along;
+use crate::detect::narrow::vector::{along, dot};
 use crate::mesh::Aabb;
 use crate::shape::solid::{Capsule, Cylinder, Faceted};
 use crate::space::{Solid, Space};
@@ -16,6 +16,11 @@ impl Touches for Capsule {
 
     fn size(&self) -> f64 {
         self.half + self.radius
+    }
+
+    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
+        let axis = Solid::rotate(pose.rotation, [0.0, 0.0, self.half]);
+        dot(direction, pose.position) + dot(direction, axis).abs() + self.radius * dot(direction, direction).sqrt()
     }
 
     fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
@@ -38,6 +43,10 @@ impl Touches for Cylinder {
 
     fn size(&self) -> f64 {
         self.half + self.radius
+    }
+
+    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
+        Convex::height(&Tube::new(self, pose), direction)
     }
 
     fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
