@@ -231,3 +231,39 @@ fn files_leave_out_who_is_not_there() {
         assert!(file.windows(said.len()).any(|part| part == said.as_bytes()), "frame {frame} has not {count} points");
     }
 }
+
+/// A ball hangs by a rod from another, which hangs from the world until it is removed: then the first one falls as a free body does.
+#[test]
+fn a_joint_ends_with_the_first_of_its_bodies_that_is_removed() {
+    let mut world = solid(
+        r#"
+dimension = 3
+gravity = [0.0, 0.0, -10.0]
+time = { step = 1e-3, steps = 300 }
+solver = { criterion = "scaled", tolerance = 1e-12 }
+materials.steel.density = 1000.0
+[[bodies]]
+name = "upper"
+shape.ball.radius = 0.1
+material = "steel"
+position = [0.0, 0.0, 1.0]
+removed_at = 0.1
+[[bodies]]
+name = "lower"
+shape.ball.radius = 0.1
+material = "steel"
+position = [0.0, 0.0, 0.0]
+[[joints]]
+between = ["upper"]
+kind.ball.anchor = [0.0, 0.0, 2.0]
+[[joints]]
+between = ["upper", "lower"]
+kind.distance = { from = [0.0, 0.0, 1.0], to = [0.0, 0.0, 0.0] }
+"#,
+        &[],
+    );
+    steps(&mut world, 100, |world, _| assert!(world.bodies.pose[1].position[2].abs() < 1e-9));
+    steps(&mut world, 200, |_, _| {});
+    let (z, v) = (world.bodies.pose[1].position[2], world.bodies.velocity[1][2]);
+    assert!((v + 2.0).abs() < 1e-9 && (z + 0.2).abs() < 1e-9, "{z} m, {v} m/s");
+}

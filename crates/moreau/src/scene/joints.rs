@@ -16,7 +16,8 @@ pub struct JointSpec {
     pub name: Option<String>,
     /// What it holds.
     pub kind: JointKindSpec,
-    /// The names of its two bodies, of which at least one must be free; or of one that is joined to the world.
+    /// The names of its two bodies, of which at least one must be free; or of one that is joined to the world. The joint ends when one of them
+    /// is removed.
     #[schemars(length(min = 1, max = 2))]
     pub between: Vec<String>,
     /// Whether its two bodies may touch each other; default no.

@@ -86,6 +86,11 @@ impl<const D: usize, const N: usize> StepJoints<D, N> {
         self.reactions.clear();
         self.left = 0.0;
         for (index, joint) in world.joints.iter().enumerate() {
+            // A joint goes with the first of its bodies that is removed.
+            if !joint.bodies.iter().flatten().all(|&body| world.bodies.is_present(body)) {
+                self.reactions.push(Reaction { point: [0.0; D], impulse: [0.0; D], moment: [0.0; 3] });
+                continue;
+            }
             let poses = joint.bodies.map(|body| pose_of::<S, D, N>(middle, body));
             let placed = joint.at::<S, N>(poses);
             for part in [Part::Translation, Part::Rotation] {
