@@ -250,7 +250,9 @@ fn what_is_wrong_with_a_surface_is_said() {
         let message = error(&shape, more);
         assert!(message.contains(words), "{shape}: {message}");
     }
-    let scene = format!("{HEAD}{}", body("mesh = { file = \"x.stl\" }", [0.0; 3], "")).replace("dimension = 3", "dimension = 2");
+    let scene =
+        format!("{HEAD}{}", body("mesh = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles = [[0, 1, 2]] }", [0.0; 3], ""))
+            .replace("dimension = 3", "dimension = 2");
     let error = Scene::parse(&scene.replace("gravity = [0.0, 0.0, -10.0]", ""), "test.toml").unwrap_err().to_string();
     assert!(error.contains("a mesh where dimension = 2"), "{error}");
 }
