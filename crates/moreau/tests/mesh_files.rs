@@ -110,7 +110,7 @@ fn the_blocks_of_an_assembly_stand_on_each_other() {
         let corners = (0..8).map(corner).collect::<Vec<_>>().join(", ");
         let faces = "\"0\": [0, 4, 6, 2], \"1\": [1, 3, 7, 5], \"2\": [0, 1, 5, 4], \"3\": [2, 6, 7, 3], \"4\": [0, 2, 3, 1], \"5\": [4, 5, 7, 6]";
         format!(
-            "{{\"block\": {{\"dtype\": \"Block\", \"data\": {{\"vertex\": {{{corners}}}, \"face\": {{{faces}}}}}}}, \"is_support\": {support}}}"
+            "{{\"block\": {{\"dtype\": \"Block\", \"data\": {{\"attributes\": {{\"name\": \"block\"}}, \"vertex\": {{{corners}}}, \"face\": {{{faces}}}}}}}, \"is_support\": {support}}}"
         )
     };
     let json =

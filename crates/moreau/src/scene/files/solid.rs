@@ -101,7 +101,8 @@ pub(super) fn assembly(scene: &mut Scene, import: Import, number: usize, folder:
     for block in found.blocks {
         let shape = block_of(&block, scale, decompose)
             .map_err(|(message, hint)| Fault::new(place.clone(), format!("{file}: block {:?}: {message}", block.key), hint))?;
-        let name = format!("import[{number}] {}", block.name.unwrap_or(block.key));
+        // Its key, because names of blocks are often all the same.
+        let name = format!("import[{number}] {}", block.key);
         let motion = if block.support { Some(MotionKind::Fixed) } else { motion };
         scene.bodies.push(body(name, shape, &material, vec![0.0; 3], motion));
     }
