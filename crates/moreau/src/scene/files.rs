@@ -66,10 +66,7 @@ fn one(
     (path, key): (&KeyPath, &str),
     check: impl Fn(&Outline) -> Option<Refusal>,
 ) -> Result<(), Fault> {
-    let Some(name) = file.take() else { return Ok(()) };
-    if !points.is_empty() {
-        return Err(Fault::new(path.clone(), format!("{key} and a file"), "keep one of them"));
-    }
+    let Some(name) = taken(file, points.is_empty(), key, path)? else { return Ok(()) };
     let mut found = all(&name, folder, &path.then("file"), &check)?;
     if found.len() > 1 {
         let message = format!("{name}:{}: a second outline begins, where a shape has one", found[1].lines[0]);
@@ -79,11 +76,19 @@ fn one(
     Ok(())
 }
 
+/// The name of the file, of a shape that has one and nothing else.
+fn taken(file: &mut Option<String>, is_empty: bool, what: &str, path: &KeyPath) -> Result<Option<String>, Fault> {
+    match file.take() {
+        Some(_) if !is_empty => Err(Fault::new(path.clone(), format!("{what} and a file"), "keep one of them")),
+        name => Ok(name),
+    }
+}
+
 /// All outlines of a file, each checked; at least one.
 fn all(name: &str, folder: &Path, path: &KeyPath, check: Check<'_>) -> Result<Vec<Outline>, Fault> {
     let place = folder.join(name);
     let fault = |message: String, hint: &str| Fault::new(path.clone(), message, hint);
-    unread::is_file(&place).map_err(|e| unread::fault(path, &place, &e))?;
+    unread::is_file(&place, path)?;
     let text = std::fs::read_to_string(&place).map_err(|e| unread::fault(path, &place, &e))?;
     let found = outlines(&text).map_err(|wrong| fault(format!("{name}:{}: {}", wrong.line, wrong.message), wrong.hint))?;
     if found.is_empty() {

@@ -10,7 +10,7 @@
 //! is made; what weights gain in height is booked as work.
 
 use super::integrate::moved;
-use super::localise::rounding;
+use super::localise::margins;
 use super::record::energies;
 use super::system::Kind;
 use super::{Localised, Workspace};
@@ -74,10 +74,8 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
     let (bodies, correction) = (&world.bodies, &mut work.correction);
     correction.reach.clear();
     correction.reach.extend((0..bodies.len()).map(|i| {
-        let radius = bodies.shape[i].bounding_radius().unwrap_or(0.0);
-        let far = bodies.pose[i].position.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
-        // Of what is driven, which may be all the ground, the size says nothing.
-        if bodies.is_free(i) { part * radius + rounding(radius, far) } else { rounding(radius, far) }
+        let [beside, rounding] = margins(bodies, i, part);
+        beside + rounding
     }));
     let driven = |i: usize| !bodies.is_free(i);
     work.detector.detect::<S, N>(&bodies.shape, &bodies.pose, &correction.reach, driven, &mut correction.found);

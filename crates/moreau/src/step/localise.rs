@@ -116,7 +116,15 @@ fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<
     if size.is_finite() { rounding(size, far) } else { 0.0 }
 }
 
+/// How far from body `i` contacts are looked for when nothing moves, m: a part of its size, and rounding. The size of a driven body, which may
+/// be all the ground, says nothing of what comes near.
+pub(super) fn margins<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, i: usize, part: f64) -> [f64; 2] {
+    let radius = bodies.shape[i].bounding_radius().unwrap_or(0.0);
+    let far = bodies.pose[i].position.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
+    [if bodies.is_free(i) { part * radius } else { 0.0 }, rounding(radius, far)]
+}
+
 /// How wrong a gap may be, for bodies of this size this far from the origin.
-pub(super) fn rounding(size: f64, far: f64) -> f64 {
+fn rounding(size: f64, far: f64) -> f64 {
     1e-9 * size + 16.0 * f64::EPSILON * far
 }

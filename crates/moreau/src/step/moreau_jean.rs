@@ -2,7 +2,7 @@
 
 use super::correct;
 use super::failed::{self, FAILED_KEPT, FailedSolve};
-use super::localise::{Localiser, rounding};
+use super::localise::{Localiser, margins};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
@@ -151,7 +151,7 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
 }
 
 /// How far from body `i` contacts matter. Closed ones: rounding. On approach: what it may travel in the step, doubled for what
-/// other contacts add to its speed, and a part of its size; that of a driven body, which may be all the ground, says nothing of what comes near.
+/// other contacts add to its speed, and a part of its size.
 fn reach<S: Space<D, N>, const D: usize, const N: usize>(
     world: &World<S, D, N>,
     i: usize,
@@ -160,8 +160,7 @@ fn reach<S: Space<D, N>, const D: usize, const N: usize>(
     approach: bool,
 ) -> f64 {
     let radius = world.bodies.shape[i].bounding_radius().unwrap_or(0.0);
-    let far = world.bodies.pose[i].position.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
-    let rounding = rounding(radius, far);
+    let [beside, rounding] = margins(&world.bodies, i, 0.01);
     if !approach {
         return rounding;
     }
@@ -169,7 +168,6 @@ fn reach<S: Space<D, N>, const D: usize, const N: usize>(
         let spin = (D..N).map(|k| v[k] * v[k]).sum::<f64>().sqrt();
         (0..D).map(|k| v[k] * v[k]).sum::<f64>().sqrt() + spin * radius
     };
-    let beside = if world.bodies.is_free(i) { 0.01 * radius } else { 0.0 };
     2.0 * h * speed(free).max(speed(&world.bodies.velocity[i])) + beside + rounding
 }
 

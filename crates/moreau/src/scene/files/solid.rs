@@ -1,6 +1,6 @@
 //! Files of meshes, heights and assemblies.
 
-use super::{body, unread};
+use super::{body, taken, unread};
 use crate::mesh::compas::{Assembly, Block};
 use crate::mesh::{Heights, Mesh, MeshError, PolygonMesh, bytes_of};
 use crate::scene::check;
@@ -40,19 +40,11 @@ pub(super) fn shape(spec: &mut ShapeSpec, folder: &Path, path: &KeyPath) -> Resu
     Ok(())
 }
 
-/// The name of the file, of a shape that has one and nothing else.
-fn taken(file: &mut Option<String>, is_empty: bool, what: &str, path: &KeyPath) -> Result<Option<String>, Fault> {
-    match file.take() {
-        Some(_) if !is_empty => Err(Fault::new(path.clone(), format!("{what} and a file"), "keep one of them")),
-        name => Ok(name),
-    }
-}
-
 fn read(name: &str, scale: Option<f64>, folder: &Path, path: &KeyPath) -> Result<Mesh, Fault> {
     let scale = factor(scale, path)?;
     let path = path.then("file");
     let place = folder.join(name);
-    is_file(&place, &path)?;
+    unread::is_file(&place, &path)?;
     let mesh = Mesh::load(&place).map_err(|error| wrong(&path, &error))?;
     if mesh.triangles.is_empty() {
         return Err(Fault::new(path, format!("{name} has no triangles"), "expected a mesh"));
@@ -67,12 +59,8 @@ fn factor(scale: Option<f64>, path: &KeyPath) -> Result<f64, Fault> {
 
 fn bytes(name: &str, folder: &Path, path: &KeyPath) -> Result<Vec<u8>, Fault> {
     let place = folder.join(name);
-    is_file(&place, path)?;
+    unread::is_file(&place, path)?;
     bytes_of(&place).map_err(|error| wrong(path, &error))
-}
-
-fn is_file(place: &Path, path: &KeyPath) -> Result<(), Fault> {
-    unread::is_file(place).map_err(|error| unread::fault(path, place, &error))
 }
 
 fn wrong(path: &KeyPath, error: &MeshError) -> Fault {

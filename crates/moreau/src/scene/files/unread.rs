@@ -6,11 +6,11 @@ use std::fmt::Display;
 use std::path::Path;
 
 /// Whether there is a file: a device or a pipe might have no end.
-pub(super) fn is_file(place: &Path) -> Result<(), String> {
+pub(super) fn is_file(place: &Path, path: &KeyPath) -> Result<(), Fault> {
     match std::fs::metadata(place) {
         Ok(found) if found.is_file() => Ok(()),
-        Ok(_) => Err("it is not a file".into()),
-        Err(error) => Err(error.to_string()),
+        Ok(_) => Err(fault(path, place, &"it is not a file")),
+        Err(error) => Err(fault(path, place, &error)),
     }
 }
 

@@ -13,8 +13,9 @@ mod overlap;
 mod points;
 
 use super::Pose;
+use super::curved::seen_from;
 use crate::detect::narrow::common::LEVEL;
-use crate::detect::narrow::vector::{along, dot, sub};
+use crate::detect::narrow::vector::{along, dot};
 use crate::shape::solid::{Edge, Faceted};
 use crate::space::{Solid, Space};
 use axes::{Axis, best};
@@ -152,8 +153,7 @@ fn points<A: Faceted, B: Faceted>(
 ) {
     let Scratch { a: corners_a, b: corners_b, points, flat, sides } = scratch;
     points.clear();
-    let position = Solid::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
-    let rotation = pose_a.rotation.conjugate() * pose_b.rotation;
+    let Pose { position, rotation } = seen_from(pose_a, pose_b);
     let turn = |v| Solid::rotate(rotation, v);
     corners_a.fill(a, |v| v, |n| n);
     corners_b.fill(b, |v| along(position, 1.0, turn(v)), turn);

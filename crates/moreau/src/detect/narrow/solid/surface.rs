@@ -14,6 +14,7 @@ mod round;
 mod thin;
 mod triangle;
 
+use super::curved::seen_from;
 use super::{Pose, facets};
 use crate::detect::narrow::common::{LEVEL, on_piece};
 use crate::detect::narrow::vector::{along, dot, sub};
@@ -82,8 +83,7 @@ pub(super) fn collide<B: Touches>(
     reach: f64,
     emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
-    let position = Solid::unrotate(pose_a.rotation, sub(pose_b.position, pose_a.position));
-    let pose = Pose { position, rotation: pose_a.rotation.conjugate() * pose_b.rotation };
+    let pose = seen_from(pose_a, pose_b);
     let near = body.around(&pose).grown(reach.max(0.0) + LEVEL * body.size());
     let query = Query { surface, body, pose, reach };
     let mut found = SCRATCH.take();
