@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, say, writable, write_whole};
 use crate::{progress, scene};
-use moreau::observe::{FailedProblems, Observer, OutputError, StepsCsv, VtkOutput};
+use moreau::observe::{FailedProblems, Observer, OutputError, StepsCsv, TrajectoryOutput, VtkOutput};
 use moreau::run::{End, Outcome, Unwritten};
 use moreau::scene::{AnyWorld, OutputKind, Scene};
 use moreau::space::Space;
@@ -58,7 +58,7 @@ fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
         Failure::file(format!("cannot write into {}: {reason}; choose another folder with --out", path.display()))
     };
     std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
-    let files = ["scene.toml", "summary.json", "steps.csv"].map(|file| folder.join(file));
+    let files = ["scene.toml", "summary.json", "steps.csv", "trajectory.h5"].map(|file| folder.join(file));
     for file in &files {
         writable(file)?;
     }
@@ -92,14 +92,19 @@ fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
 
 fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
     scene: &Scene,
+    world: &World<S, D, N>,
     folder: &Path,
 ) -> Result<Vec<Box<dyn Observer<S, D, N> + 'a>>, OutputError> {
     let mut observers: Vec<Box<dyn Observer<S, D, N> + 'a>> = Vec::new();
     if scene.output.kinds.contains(&OutputKind::Steps) {
         observers.push(Box::new(StepsCsv::create(&folder.join("steps.csv"))?));
     }
-    if scene.output.kinds.contains(&OutputKind::Vtk) && scene.vtk_every() > 0 {
-        observers.push(Box::new(VtkOutput::create(&folder.join("vtk"), scene.vtk_every())?));
+    if scene.output.kinds.contains(&OutputKind::Vtk) && scene.frame_every() > 0 {
+        observers.push(Box::new(VtkOutput::create(&folder.join("vtk"), scene.frame_every())?));
+    }
+    if scene.output.kinds.contains(&OutputKind::Trajectory) {
+        let settings = (scene.title.as_deref().unwrap_or_default(), scene.frame_every(), scene.output.precision);
+        observers.push(Box::new(TrajectoryOutput::create(&folder.join("trajectory.h5"), world, settings)?));
     }
     if scene.solver.on_failure == OnFailure::Dump {
         observers.push(Box::new(FailedProblems::new(folder)));
@@ -114,7 +119,7 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
     folder: &Path,
 ) -> Result<(), Failure> {
     let stop = progress::stop_on_ctrl_c()?;
-    let mut observers = observers(scene, folder).map_err(Failure::file)?;
+    let mut observers = observers(scene, &world, folder).map_err(Failure::file)?;
     let settings = world.settings;
     let bar = progress::bar(scene.time.steps, args.quiet);
     let pool = scene::pool(args.threads.map_or_else(scene::cores, usize::from))?;

@@ -5,13 +5,17 @@
 mod background;
 mod failed;
 pub mod interfaces;
+mod status;
 mod steps;
 mod summary;
+mod trajectory;
 mod vtk;
 
 pub use failed::FailedProblems;
-pub use steps::StepsCsv;
+pub(crate) use steps::numbers;
+pub use steps::{COLUMNS, StepsCsv};
 pub use summary::Summary;
+pub use trajectory::TrajectoryOutput;
 pub use vtk::VtkOutput;
 
 use crate::space::Space;
@@ -23,6 +27,7 @@ use std::path::PathBuf;
 /// The table of outputs.
 pub const OUTPUTS: &[Row] = &[
     Row { name: "steps", about: "steps.csv: a row a step with sweeps, residuals, penetration, energies, seconds" },
+    Row { name: "trajectory", about: "trajectory.h5: bodies and contacts of each frame and the records of steps, for moreau's own views and for Python" },
     Row { name: "vtk", about: "vtk/: bodies, contacts, shapes, interfaces for ParaView, compressed, with .pvd collections" },
 ];
 
@@ -50,6 +55,9 @@ pub enum OutputError {
     /// By the word of the writer of problem files.
     #[error(transparent)]
     Problem(#[from] moreau_solve::files::FileError),
+    /// By the word of the writer of trajectories.
+    #[error("cannot write {0}")]
+    Trajectory(#[from] crate::trajectory::TrajectoryError),
     /// By the VTK writer's word.
     #[error(transparent)]
     Vtk(#[from] crate::io::vtk::VtkError),

@@ -9,9 +9,64 @@ use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 /// The columns, in order.
-const HEADER: &str = "step,time,bodies,contacts,active,sweeps,converged,eps_motion,eps_bipotential,eps_penetration,eps_glob,\
-                      scaled_residual,penetration,kinetic,potential,work,dissipated,balance_error,\
-                      seconds_detect,seconds_localise,seconds_solve,seconds_step";
+pub const COLUMNS: [&str; 22] = [
+    "step",
+    "time",
+    "bodies",
+    "contacts",
+    "active",
+    "sweeps",
+    "converged",
+    "eps_motion",
+    "eps_bipotential",
+    "eps_penetration",
+    "eps_glob",
+    "scaled_residual",
+    "penetration",
+    "kinetic",
+    "potential",
+    "work",
+    "dissipated",
+    "balance_error",
+    "seconds_detect",
+    "seconds_localise",
+    "seconds_solve",
+    "seconds_step",
+];
+
+/// How many of the first columns are whole numbers, but for the time.
+const WHOLE: usize = 7;
+/// Where the seconds begin, of which few digits mean something.
+const SECONDS: usize = 18;
+
+/// The numbers of a row; whole numbers are below 2^53.
+pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
+    let (eps, energy, seconds) = (&r.residual.eps_glob, &r.energy, &r.seconds);
+    [
+        r.step as f64,
+        r.time,
+        r.bodies as f64,
+        r.contacts as f64,
+        r.active as f64,
+        r.sweeps as f64,
+        f64::from(u8::from(r.converged())),
+        eps.motion,
+        eps.bipotential,
+        eps.penetration,
+        eps.total(),
+        r.residual.scaled,
+        r.penetration,
+        energy.kinetic,
+        energy.potential,
+        energy.work,
+        energy.dissipated,
+        energy.balance_error,
+        seconds.detect,
+        seconds.localise,
+        seconds.solve,
+        seconds.step,
+    ]
+}
 
 /// Writes the records of a run.
 #[derive(Debug)]
@@ -29,7 +84,7 @@ impl StepsCsv {
     /// Where it cannot be created.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         let file = File::create(path).map_err(OutputError::io(path))?;
-        let mut steps = Self { path: path.to_owned(), file: BufWriter::new(file), row: format!("{HEADER}\n") };
+        let mut steps = Self { path: path.to_owned(), file: BufWriter::new(file), row: COLUMNS.join(",") + "\n" };
         steps.put()?;
         Ok(steps)
     }
@@ -42,25 +97,16 @@ impl StepsCsv {
 
 /// Puts one row in place of what is in `row`.
 fn format(row: &mut String, r: &StepRecord) -> std::fmt::Result {
-    let (eps, energy, seconds) = (&r.residual.eps_glob, &r.energy, &r.seconds);
     row.clear();
-    write!(row, "{},{:e},{},{},{},{},{}", r.step, r.time, r.bodies, r.contacts, r.active, r.sweeps, u8::from(r.converged()))?;
-    let numbers = [
-        eps.motion,
-        eps.bipotential,
-        eps.penetration,
-        eps.total(),
-        r.residual.scaled,
-        r.penetration,
-        energy.kinetic,
-        energy.potential,
-        energy.work,
-        energy.dissipated,
-        energy.balance_error,
-    ];
-    numbers.iter().try_for_each(|x| write!(row, ",{x:e}"))?;
-    let seconds = [seconds.detect, seconds.localise, seconds.solve, seconds.step];
-    seconds.iter().try_for_each(|x| write!(row, ",{x:.3e}"))?;
+    for (k, x) in numbers(r).into_iter().enumerate() {
+        let comma = if k == 0 { "" } else { "," };
+        match k {
+            1 => write!(row, "{comma}{x:e}")?,
+            0..WHOLE => write!(row, "{comma}{x}")?,
+            WHOLE..SECONDS => write!(row, "{comma}{x:e}")?,
+            _ => write!(row, "{comma}{x:.3e}")?,
+        }
+    }
     writeln!(row)
 }
 

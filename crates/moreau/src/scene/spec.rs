@@ -5,6 +5,7 @@
 use super::events::DriveSpec;
 use super::shape::{ShapeSpec, is_false};
 use super::values::{Angular, Orientation};
+use crate::trajectory::Precision;
 use crate::world::{OnFailure, Start};
 use moreau_solve::{Criterion, GlobalMethod, Kernels, Law, LocalMethod, Order, Parameter, Settings};
 use schemars::JsonSchema;
@@ -281,11 +282,13 @@ pub struct Output {
     pub every: Option<u64>,
     /// What is written.
     pub kinds: Vec<OutputKind>,
+    /// How real numbers of the trajectory are kept.
+    pub precision: Precision,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { folder: None, every: None, kinds: vec![OutputKind::Vtk, OutputKind::Steps] }
+        Self { folder: None, every: None, kinds: vec![OutputKind::Vtk, OutputKind::Steps, OutputKind::Trajectory], precision: Precision::Single }
     }
 }
 
@@ -297,6 +300,8 @@ pub enum OutputKind {
     Vtk,
     /// A table with a line for each step: sweeps, residuals, energies.
     Steps,
+    /// One file with bodies and contacts of every frame and the table of steps, for moreau's own views and for Python.
+    Trajectory,
 }
 
 /// What is asked of the first configuration.

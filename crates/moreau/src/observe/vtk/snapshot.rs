@@ -5,11 +5,10 @@ use super::shapes::{Drawing, Shapes};
 use crate::io::vtk::{Array, PolyData};
 use crate::observe::Frame;
 use crate::observe::interfaces::in_world;
+use crate::observe::status::status;
 use crate::shape::Shape;
 use crate::space::Space;
 use crate::step::Localised;
-use moreau_solve::Cone;
-use moreau_solve::block::tangent_norm;
 use std::sync::Arc;
 
 /// The arrays of one frame.
@@ -48,17 +47,6 @@ struct Contacts {
     normal_impulse: Vec<f64>,
     status: Vec<i32>,
     pairs: Vec<[i64; 2]>,
-}
-
-/// Status of a contact in the files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ContactStatus {
-    /// No impulse.
-    Open = 0,
-    /// Pressed, without slip, or without friction at all.
-    Sticking = 1,
-    /// Pressed, on the edge of Coulomb's cone.
-    Sliding = 2,
 }
 
 impl Snapshot {
@@ -161,14 +149,4 @@ pub(super) fn refill<T>(list: &mut Vec<T>, values: impl Iterator<Item = T>) {
 /// Two or three numbers as three.
 pub(super) fn space_vector(v: &[f64]) -> [f64; 3] {
     std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0))
-}
-
-fn status<const D: usize>(c: &Localised<D>) -> ContactStatus {
-    if c.impulse == [0.0; D] {
-        return ContactStatus::Open;
-    }
-    match c.form.cone {
-        Cone::Coulomb(mu) if tangent_norm(&c.impulse) >= (1.0 - 1e-9) * mu * c.impulse[0] => ContactStatus::Sliding,
-        _ => ContactStatus::Sticking,
-    }
 }

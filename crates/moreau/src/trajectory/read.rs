@@ -1,0 +1,187 @@
+//! Reading a trajectory, also of a run that goes on or was killed.
+
+use super::{FORMAT, Header, PAIRS, REALS, TrajectoryError, VERSION, widths};
+use crate::observe::COLUMNS;
+use hdf5_pure::{AttrValue, Dataset, Error, File};
+use std::path::{Path, PathBuf};
+
+/// A trajectory as it was when it was opened: what came since is not in it.
+pub struct Trajectory {
+    path: PathBuf,
+    file: File,
+    header: Header,
+    step: Vec<u64>,
+    time: Vec<f64>,
+    /// Contacts of all frames to the end of each.
+    contacts: Vec<u64>,
+}
+
+/// One frame; see [`super`] for the order of numbers and for units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TrajectoryFrame {
+    /// The number of the step.
+    pub step: u64,
+    /// s.
+    pub time: f64,
+    /// `D` numbers a body.
+    pub position: Vec<f64>,
+    /// 4 or 2 a body.
+    pub rotation: Vec<f64>,
+    /// `D` a body.
+    pub velocity: Vec<f64>,
+    /// 3 or 1 a body.
+    pub spin: Vec<f64>,
+    /// First and second body of each contact.
+    pub pairs: [Vec<u32>; 2],
+    /// `D` a contact.
+    pub point: Vec<f64>,
+    /// `D` a contact.
+    pub normal: Vec<f64>,
+    /// `D` a contact.
+    pub impulse: Vec<f64>,
+    /// One a contact.
+    pub gap: Vec<f64>,
+    /// One a contact.
+    pub status: Vec<u8>,
+}
+
+impl Trajectory {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or is no trajectory, or one of a later version.
+    pub fn open(path: &Path) -> Result<Self, TrajectoryError> {
+        let wrong = |error: Error| TrajectoryError::new(path, error);
+        let file = File::open_streaming(path).map_err(wrong)?;
+        let header = header(&file, path)?;
+        let step = read(&file, path, "frames/step", Dataset::read_u64)?;
+        let frames = step.len() as u64;
+        let time = read(&file, path, "frames/time", |set| set.read_f64_rows(0, frames))?;
+        let contacts = read(&file, path, "frames/contacts", |set| set.read_u64_rows(0, frames))?;
+        if contacts.len() != step.len() || time.len() != step.len() || !contacts.is_sorted() {
+            return Err(TrajectoryError::new(path, "frames/step, frames/time and frames/contacts do not fit each other"));
+        }
+        Ok(Self { path: path.to_owned(), file, header, step, time, contacts })
+    }
+
+    /// What does not change.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// How many frames there are.
+    pub fn frames(&self) -> usize {
+        self.step.len()
+    }
+
+    /// Their numbers of steps.
+    pub fn steps(&self) -> &[u64] {
+        &self.step
+    }
+
+    /// Their times, s.
+    pub fn times(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// How many contacts frame `i` has.
+    pub fn contacts(&self, i: usize) -> u64 {
+        self.contacts[i] - self.first_contact(i)
+    }
+
+    fn first_contact(&self, i: usize) -> u64 {
+        if i == 0 { 0 } else { self.contacts[i - 1] }
+    }
+
+    /// Reads frame `i`.
+    ///
+    /// # Errors
+    /// Where there is no such frame, or the file cannot be read or is damaged.
+    pub fn frame(&self, i: usize) -> Result<TrajectoryFrame, TrajectoryError> {
+        if i >= self.frames() {
+            return Err(TrajectoryError::new(&self.path, format!("there is no frame {i}: it has {}", self.frames())));
+        }
+        let bodies = self.header.radius.len() as u64;
+        let (first, count) = (self.first_contact(i), self.contacts(i));
+        let [d, turn, spin] = widths(self.header.dimension);
+        let mut reals = [d, turn, d, spin, d, d, d, 1].into_iter().zip(REALS).map(|(width, name)| {
+            let width = width as u64;
+            let (start, rows) = if name.starts_with("frames/") { (i as u64 * bodies, bodies) } else { (first, count) };
+            self.rows(name, [start * width, rows * width], Dataset::read_f64_rows)
+        });
+        let mut next = || reals.next().unwrap_or_else(|| Ok(Vec::new()));
+        let (position, rotation, velocity, spin) = (next()?, next()?, next()?, next()?);
+        let (point, normal, impulse, gap) = (next()?, next()?, next()?, next()?);
+        let [a, b] = PAIRS.map(|name| self.rows(name, [first, count], Dataset::read_u32_rows));
+        let status = self.rows("contacts/status", [first, count], Dataset::read_u8_rows)?;
+        let (step, time, pairs) = (self.step[i], self.time[i], [a?, b?]);
+        if pairs.iter().flatten().any(|&body| u64::from(body) >= bodies) {
+            return Err(TrajectoryError::new(&self.path, format!("frame {i} has a contact of a body that does not exist")));
+        }
+        Ok(TrajectoryFrame { step, time, position, rotation, velocity, spin, pairs, point, normal, impulse, gap, status })
+    }
+
+    /// The records of steps, a column after the other as in `steps.csv`; a step that only some have is left out.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn columns(&self) -> Result<Vec<Vec<f64>>, TrajectoryError> {
+        let column = |name: &&str| read(&self.file, &self.path, &format!("steps/{name}"), Dataset::read_f64);
+        let mut columns = COLUMNS.iter().map(column).collect::<Result<Vec<_>, _>>()?;
+        let steps = columns.iter().map(Vec::len).min().unwrap_or(0);
+        columns.iter_mut().for_each(|column| column.truncate(steps));
+        Ok(columns)
+    }
+
+    /// Some numbers of a dataset, from one on.
+    fn rows<T>(
+        &self,
+        name: &str,
+        [start, count]: [u64; 2],
+        get: impl Fn(&Dataset, u64, u64) -> Result<Vec<T>, Error>,
+    ) -> Result<Vec<T>, TrajectoryError> {
+        let values = read(&self.file, &self.path, name, |set| get(set, start, count))?;
+        if values.len() as u64 == count {
+            return Ok(values);
+        }
+        Err(TrajectoryError::new(&self.path, format!("{name} ends before a frame that frames/step has")))
+    }
+}
+
+fn read<T>(file: &File, path: &Path, name: &str, get: impl Fn(&Dataset) -> Result<T, Error>) -> Result<T, TrajectoryError> {
+    file.dataset(name).and_then(|set| get(&set)).map_err(|error| TrajectoryError::new(path, format!("{name}: {error}")))
+}
+
+fn header(file: &File, path: &Path) -> Result<Header, TrajectoryError> {
+    let attributes = file.root().attrs().map_err(|error| TrajectoryError::new(path, error))?;
+    let integer = |name: &str| match attributes.get(name) {
+        Some(AttrValue::I64(x)) => Some(*x),
+        Some(AttrValue::U64(x)) => i64::try_from(*x).ok(),
+        _ => None,
+    };
+    let text = |name: &str| match attributes.get(name) {
+        Some(AttrValue::String(text) | AttrValue::AsciiString(text)) => Some(text.clone()),
+        _ => None,
+    };
+    if text("format").as_deref() != Some(FORMAT) {
+        return Err(TrajectoryError::new(path, format!("it has no attribute format with the value {FORMAT:?}: it is no trajectory")));
+    }
+    let version = integer("version").unwrap_or(0);
+    if version != VERSION {
+        return Err(TrajectoryError::new(path, format!("it is of version {version}; this program reads version {VERSION}")));
+    }
+    let dimension = match integer("dimension") {
+        Some(dimension @ (2 | 3)) => dimension as usize,
+        other => return Err(TrajectoryError::new(path, format!("its dimension is {other:?}; 2 or 3 is right"))),
+    };
+    let step = if let Some(AttrValue::F64(step)) = attributes.get("step") { *step } else { f64::NAN };
+    let radius = read(file, path, "bodies/radius", Dataset::read_f64)?;
+    let mass = read(file, path, "bodies/mass", Dataset::read_f64)?;
+    let material = read(file, path, "bodies/material", Dataset::read_u16)?;
+    let free: Vec<bool> = read(file, path, "bodies/free", Dataset::read_u8)?.into_iter().map(|free| free != 0).collect();
+    if [mass.len(), material.len(), free.len()] != [radius.len(); 3] {
+        return Err(TrajectoryError::new(path, "the datasets of bodies are not of one length"));
+    }
+    let every = integer("every").and_then(|every| u64::try_from(every).ok()).unwrap_or(1);
+    Ok(Header { dimension, title: text("title").unwrap_or_default(), step, every, radius, mass, material, free })
+}

@@ -1,0 +1,94 @@
+//! What is written is read again, to the last frame that is whole.
+
+use super::{Batch, Header, Precision, Trajectory, TrajectoryWriter};
+use crate::observe::COLUMNS;
+
+fn header() -> Header {
+    Header {
+        dimension: 3,
+        title: "two balls on a floor".to_owned(),
+        step: 1e-3,
+        every: 10,
+        radius: vec![0.5, 0.25, f64::INFINITY],
+        mass: vec![1.0, 2.0, f64::INFINITY],
+        material: vec![0, 1, 0],
+        free: vec![true, true, false],
+    }
+}
+
+/// Frame `k` of three bodies with `k` contacts; every number tells where it should be.
+fn frame(k: u64) -> Batch {
+    let numbers = |count: u64, first: f64| (0..count).map(|i| first + 100.0 * k as f64 + i as f64).collect::<Vec<f64>>();
+    let mut row = [0.0; COLUMNS.len()];
+    row[0] = k as f64;
+    row[COLUMNS.len() - 1] = 1.0 / 3.0;
+    Batch {
+        step: vec![10 * k],
+        time: vec![0.01 * k as f64],
+        contacts: vec![k],
+        reals: [
+            numbers(9, 0.1),
+            numbers(12, 0.2),
+            numbers(9, 0.3),
+            numbers(9, 0.4),
+            numbers(3 * k, 0.5),
+            numbers(3 * k, 0.6),
+            numbers(3 * k, 0.7),
+            numbers(k, 0.8),
+        ],
+        pairs: [vec![0; k as usize], vec![2; k as usize]],
+        status: vec![1; k as usize],
+        rows: vec![row],
+    }
+}
+
+#[test]
+fn frames_are_read_as_they_were_written() {
+    let folder = tempfile::tempdir().unwrap();
+    for (precision, epsilon) in [(Precision::Double, 0.0), (Precision::Single, 1e-7)] {
+        let path = folder.path().join("trajectory.h5");
+        let mut writer = TrajectoryWriter::create(&path, &header(), precision).unwrap();
+        assert_eq!(Trajectory::open(&path).unwrap().frames(), 0);
+        for k in 0..40 {
+            writer.append(&frame(k)).unwrap();
+            if k == 20 {
+                // While the writer has it open.
+                let trajectory = Trajectory::open(&path).unwrap();
+                assert_eq!((trajectory.frames(), trajectory.contacts(20)), (21, 20));
+                assert_eq!(trajectory.frame(20).unwrap().pairs[1], vec![2; 20]);
+            }
+        }
+        writer.finish().unwrap();
+        let trajectory = Trajectory::open(&path).unwrap();
+        assert_eq!(trajectory.header(), &header());
+        assert_eq!(trajectory.frames(), 40);
+        for k in [0, 1, 7, 39] {
+            let (written, read) = (frame(k), trajectory.frame(k as usize).unwrap());
+            assert_eq!((read.step, read.time), (10 * k, 0.01 * k as f64));
+            let reals =
+                [&read.position, &read.rotation, &read.velocity, &read.spin, &read.point, &read.normal, &read.impulse, &read.gap];
+            for (written, read) in written.reals.iter().zip(reals) {
+                assert_eq!(written.len(), read.len());
+                assert!(written.iter().zip(read).all(|(w, r)| (w - r).abs() <= epsilon * w), "{written:?} {read:?}");
+            }
+            assert_eq!((read.pairs, read.status), (written.pairs, written.status));
+        }
+        let columns = trajectory.columns().unwrap();
+        assert_eq!(columns[0], (0..40).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(columns[COLUMNS.len() - 1], vec![1.0 / 3.0; 40]);
+        assert!(trajectory.frame(40).unwrap_err().to_string().contains("there is no frame 40"));
+    }
+}
+
+#[test]
+fn what_is_no_trajectory_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("trajectory.h5");
+    std::fs::write(&path, "time,step\n0,0\n").unwrap();
+    assert!(Trajectory::open(&path).is_err());
+    let mut other = hdf5_pure::FileBuilder::new();
+    other.create_dataset("numbers").with_f64_data(&[1.0]);
+    other.write(&path).unwrap();
+    let error = Trajectory::open(&path).err().unwrap().to_string();
+    assert!(error.contains("it is no trajectory"), "{error}");
+}

@@ -1,0 +1,165 @@
+//! Writing a trajectory.
+
+use super::{Batch, FORMAT, PAIRS, Precision, REALS, TrajectoryError, VERSION, widths};
+use crate::observe::COLUMNS;
+use hdf5_pure::{AttrValue, Error, File, FileAccessProperties, FileBuilder, GroupBuilder, H5Element, MaxExtent, SyncPolicy};
+use std::path::{Path, PathBuf};
+
+/// About how many numbers a chunk holds: so much is compressed, and read, at a time.
+const CHUNK: usize = 1 << 14;
+
+/// How well what is written is compressed: the least, for the run must not wait.
+const LEVEL: u32 = 1;
+
+/// What does not change during a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Header {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// The scene's.
+    pub title: String,
+    /// Length of a step, s.
+    pub step: f64,
+    /// Every how many-th step is a frame.
+    pub every: u64,
+    /// Bounding radii, m; infinite of what is unbounded.
+    pub radius: Vec<f64>,
+    /// kg.
+    pub mass: Vec<f64>,
+    /// Indices of materials.
+    pub material: Vec<u16>,
+    /// Whether bodies are free, at the start.
+    pub free: Vec<bool>,
+}
+
+/// A file that grows.
+pub struct TrajectoryWriter {
+    path: PathBuf,
+    file: File,
+    precision: Precision,
+    /// Contacts of all frames so far.
+    contacts: u64,
+    single: Vec<f32>,
+}
+
+impl std::fmt::Debug for TrajectoryWriter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "TrajectoryWriter({})", self.path.display())
+    }
+}
+
+impl TrajectoryWriter {
+    /// Makes a file without frames.
+    ///
+    /// # Errors
+    /// Where it cannot be made.
+    pub fn create(path: &Path, header: &Header, precision: Precision) -> Result<Self, TrajectoryError> {
+        let wrong = |error: Error| TrajectoryError::new(path, error);
+        layout(header, precision).write(path).map_err(wrong)?;
+        // Nothing is forced to the disk before the end: a run that is killed loses no more than what waits here, and a machine that goes down
+        // may lose the file.
+        let access = FileAccessProperties::new().with_sync_policy(SyncPolicy::OnClose);
+        let file = File::open_rw_with_options(path, access).map_err(wrong)?;
+        Ok(Self { path: path.to_owned(), file, precision, contacts: 0, single: Vec::new() })
+    }
+
+    /// Appends frames and rows; the numbers of steps last, by which readers know which frames are whole.
+    ///
+    /// # Errors
+    /// Where they cannot be written.
+    pub fn append(&mut self, batch: &Batch) -> Result<(), TrajectoryError> {
+        self.put(batch).map_err(|error| TrajectoryError::new(&self.path, error))
+    }
+
+    fn put(&mut self, batch: &Batch) -> Result<(), Error> {
+        let file = &self.file;
+        for (name, values) in REALS.iter().zip(&batch.reals) {
+            match self.precision {
+                Precision::Double => grow(file, name, values)?,
+                Precision::Single => {
+                    self.single.clear();
+                    self.single.extend(values.iter().map(|&x| x as f32));
+                    grow(file, name, &self.single)?;
+                }
+            }
+        }
+        for (name, values) in PAIRS.iter().zip(&batch.pairs) {
+            grow(file, name, values)?;
+        }
+        grow(file, "contacts/status", &batch.status)?;
+        for (k, column) in COLUMNS.iter().enumerate() {
+            let values: Vec<f64> = batch.rows.iter().map(|row| row[k]).collect();
+            grow(file, &format!("steps/{column}"), &values)?;
+        }
+        grow(file, "frames/time", &batch.time)?;
+        let mut end = self.contacts;
+        let ends = batch.contacts.iter().map(|count| {
+            end += count;
+            end
+        });
+        grow(file, "frames/contacts", &ends.collect::<Vec<u64>>())?;
+        self.contacts = end;
+        grow(file, "frames/step", &batch.step)
+    }
+
+    /// Completes the file.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn finish(self) -> Result<(), TrajectoryError> {
+        self.file.close().map_err(|error| TrajectoryError::new(&self.path, error))
+    }
+}
+
+fn grow<T: H5Element>(file: &File, name: &str, values: &[T]) -> Result<(), Error> {
+    if values.is_empty() { Ok(()) } else { file.dataset(name)?.append(values) }
+}
+
+/// The file without frames.
+fn layout(header: &Header, precision: Precision) -> FileBuilder {
+    let mut file = FileBuilder::new();
+    file.set_attr("format", AttrValue::String(FORMAT.to_owned()));
+    file.set_attr("version", AttrValue::I64(VERSION));
+    file.set_attr("dimension", AttrValue::I64(header.dimension as i64));
+    file.set_attr("title", AttrValue::String(header.title.clone()));
+    file.set_attr("step", AttrValue::F64(header.step));
+    file.set_attr("every", AttrValue::U64(header.every));
+    let mut bodies = file.create_group("bodies");
+    bodies.create_dataset("radius").with_f64_data(&header.radius);
+    bodies.create_dataset("mass").with_f64_data(&header.mass);
+    bodies.create_dataset("material").with_u16_data(&header.material);
+    bodies.create_dataset("free").with_u8_data(&header.free.iter().map(|&free| u8::from(free)).collect::<Vec<_>>());
+    file.add_group(bodies.finish());
+    let (count, [d, turn, spin]) = (header.radius.len(), widths(header.dimension));
+    let mut frames = file.create_group("frames");
+    let mut contacts = file.create_group("contacts");
+    for (name, width) in REALS.iter().zip([d, turn, d, spin, d, d, d, 1]) {
+        let (of_frames, name) = name.split_once('/').map_or((false, *name), |(group, name)| (group == "frames", name));
+        // Whole frames of bodies, where they are small enough.
+        let one = if of_frames { count * width } else { width };
+        let chunk = (one * (CHUNK / one.max(1)).max(1)).clamp(1, CHUNK << 6);
+        let group = if of_frames { &mut frames } else { &mut contacts };
+        match precision {
+            Precision::Single => growing(group, name, &[0_f32; 0], chunk),
+            Precision::Double => growing(group, name, &[0_f64; 0], chunk),
+        }
+    }
+    growing(&mut frames, "step", &[0_u64; 0], CHUNK >> 4);
+    growing(&mut frames, "time", &[0_f64; 0], CHUNK >> 4);
+    growing(&mut frames, "contacts", &[0_u64; 0], CHUNK >> 4);
+    growing(&mut contacts, "a", &[0_u32; 0], CHUNK);
+    growing(&mut contacts, "b", &[0_u32; 0], CHUNK);
+    growing(&mut contacts, "status", &[0_u8; 0], CHUNK);
+    file.add_group(frames.finish());
+    file.add_group(contacts.finish());
+    let mut steps = file.create_group("steps");
+    COLUMNS.iter().for_each(|column| growing(&mut steps, column, &[0_f64; 0], CHUNK >> 4));
+    file.add_group(steps.finish());
+    file
+}
+
+/// A dataset that is appended to.
+fn growing<T: H5Element>(group: &mut GroupBuilder, name: &str, none: &[T], chunk: usize) {
+    let dataset = group.create_dataset(name).with_data(none).with_shape(&[0]).with_maxshape(&[MaxExtent::Unlimited]);
+    dataset.with_chunks(&[chunk as u64]).with_shuffle().with_deflate(LEVEL);
+}
