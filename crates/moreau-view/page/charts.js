@@ -1,0 +1,99 @@
+// The charts of a run. They share their time axis and a cursor at the time that the picture shows.
+
+/** What is drawn: a chart's lines name columns of the steps. */
+function chartList(steps, tolerance) {
+    const line = (name, column, colour) => ({ name, colour: NAMED_INK[colour], values: steps[column] ?? [] });
+    return [
+        { title: "Sweeps", unit: "per step", series: [line("", "sweeps", 0)] },
+        {
+            title: "Residual", unit: "(dashed: tolerance)", log: true, bound: tolerance,
+            series: [line("motion", "eps_motion", 0), line("bipotential", "eps_bipotential", 1),
+                line("penetration", "eps_penetration", 2), line("scaled", "scaled_residual", 3)],
+        },
+        { title: "Penetration", unit: "m", series: [line("", "penetration", 5)] },
+        {
+            title: "Energy", unit: "J",
+            series: [line("kinetic", "kinetic", 0), line("potential", "potential", 2), line("work", "work", 3), line("dissipated", "dissipated", 1)],
+        },
+        { title: "Balance error", unit: "J", series: [line("", "balance_error", 5)] },
+        { title: "Contacts", series: [line("all", "contacts", 0), line("with impulse", "active", 1)] },
+        {
+            title: "Time", unit: "s per step",
+            series: [line("detect", "seconds_detect", 2), line("localise", "seconds_localise", 1), line("solve", "seconds_solve", 0),
+                line("step", "seconds_step", 3)],
+        },
+    ];
+}
+
+/** Colours of lines that can be read on light and on dark ground. */
+const NAMED_INK = ["#3b8fd6", "#d98a00", "#0f9d78", "#b866a6", "#56b4e9", "#dd5f1a"];
+
+class Charts {
+    constructor(run, seek) {
+        this.run = run;
+        this.seek = seek;
+        this.place = byId("charts");
+        this.cursor = element("div", { class: "cursor" });
+        this.renew();
+        new ResizeObserver(() => this.draw()).observe(this.place);
+    }
+
+    /** Takes the run's steps again, which have grown. */
+    renew() {
+        const { steps, frames, solver } = this.run.meta;
+        this.steps = steps;
+        this.start = Math.min(steps.time[0] ?? 0, frames.time[0] ?? 0);
+        this.end = Math.max(steps.time.at(-1) ?? 1, frames.time.at(-1) ?? 1);
+        if (this.plots) {
+            chartList(steps, solver.tolerance).forEach(({ series }, i) => (this.plots[i].series = series));
+        } else {
+            this.plots = chartList(steps, solver.tolerance).map((given) => new Plot(given));
+            this.plots.forEach((plot) => this.listen(plot.canvas));
+            this.place.replaceChildren(...this.plots.map((plot) => plot.place), this.cursor);
+        }
+        this.draw();
+    }
+
+    draw() {
+        const style = getComputedStyle(document.documentElement), get = (name) => style.getPropertyValue(name).trim();
+        const ink = { text: get("--quiet"), grid: get("--rule"), font: "10.5px system-ui, sans-serif" };
+        for (const plot of this.plots) plot.draw(this.steps.time, this.start, this.end, ink);
+        if (this.time !== undefined) this.show(this.time);
+    }
+
+    /** A press on a chart, and dragging from there, moves the time. */
+    listen(canvas) {
+        const seek = (event) => {
+            const box = canvas.getBoundingClientRect();
+            const x = (event.clientX - box.left - PLOT.left) / (box.width - PLOT.left - PLOT.right);
+            this.seek(this.start + clamp(x, 0, 1) * (this.end - this.start));
+        };
+        canvas.addEventListener("pointerdown", (event) => {
+            if (event.button !== 0) return;
+            if (event.pointerType === "mouse") canvas.setPointerCapture(event.pointerId);
+            seek(event);
+        });
+        canvas.addEventListener("pointermove", (event) => {
+            if (event.buttons & 1 && event.pointerType === "mouse") seek(event);
+        });
+    }
+
+    /** Puts the cursor at a time; values are read at the step that ends there. */
+    show(time) {
+        this.time = time;
+        const width = this.plots[0].canvas.clientWidth - PLOT.left - PLOT.right;
+        const x = this.plots[0].canvas.offsetLeft + PLOT.left + (width * (time - this.start)) / (this.end - this.start || 1);
+        this.cursor.style.transform = `translateX(${x.toFixed(1)}px)`;
+        const now = performance.now(), due = 100 - (now - (this.read ?? -1e9));
+        clearTimeout(this.later);
+        if (due > 0) this.later = setTimeout(() => this.show(this.time), due);
+        else this.readAt(time, now);
+    }
+
+    /** Text is slow to lay out, so it follows ten times a second at most. */
+    readAt(time, now) {
+        this.read = now;
+        const step = lastBelow(this.steps.time, time + 1e-9 * (this.end - this.start));
+        for (const plot of this.plots) plot.read(step);
+    }
+}

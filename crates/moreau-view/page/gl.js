@@ -1,0 +1,95 @@
+// WebGL 2 in few words: programs with their uniforms, buffers with their attributes, and arrays of all bodies in textures.
+
+/** Bodies in a row of a texture; the programs know it too. */
+const ROW = 1024;
+
+class Program {
+    constructor(gl, source, flat, withBodies = true) {
+        const head = `#version 300 es\n${flat ? "#define FLAT\n" : ""}${COMMON}${withBodies ? BODIES : ""}`;
+        this.gl = gl;
+        this.program = gl.createProgram();
+        for (const [kind, text] of [[gl.VERTEX_SHADER, source.vertex], [gl.FRAGMENT_SHADER, source.fragment]]) {
+            const shader = gl.createShader(kind);
+            gl.shaderSource(shader, head + text);
+            gl.compileShader(shader);
+            gl.attachShader(this.program, shader);
+            this.shaders = [...(this.shaders ?? []), shader];
+        }
+        gl.linkProgram(this.program);
+        if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) {
+            const notes = this.shaders.map((shader) => gl.getShaderInfoLog(shader)).join("\n");
+            throw new Error(`${gl.getProgramInfoLog(this.program)}\n${notes}`);
+        }
+        this.places = {};
+        const count = gl.getProgramParameter(this.program, gl.ACTIVE_UNIFORMS);
+        for (let i = 0; i < count; i++) {
+            const name = gl.getActiveUniform(this.program, i).name;
+            this.places[name.replace("[0]", "")] = gl.getUniformLocation(this.program, name);
+        }
+    }
+
+    use() {
+        this.gl.useProgram(this.program);
+        return this;
+    }
+
+    number(name, x) {
+        if (this.places[name]) this.gl.uniform1f(this.places[name], x);
+    }
+
+    integer(name, x) {
+        if (this.places[name]) this.gl.uniform1i(this.places[name], x);
+    }
+
+    vector(name, v) {
+        if (this.places[name]) this.gl.uniform3fv(this.places[name], v);
+    }
+
+    matrix(name, m) {
+        if (this.places[name]) this.gl.uniformMatrix4fv(this.places[name], false, m);
+    }
+}
+
+/** An array with `parts` numbers for each body, in a texture whose first body is its first texel. */
+class BodyTexture {
+    constructor(gl, n, parts) {
+        this.gl = gl;
+        this.parts = parts;
+        this.rows = Math.floor(n / ROW);
+        this.rest = n % ROW;
+        this.format = [gl.RED, gl.RG, gl.RGB, gl.RGBA][parts - 1];
+        this.texture = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_2D, this.texture);
+        const inside = [gl.R32F, gl.RG32F, gl.RGB32F, gl.RGBA32F][parts - 1];
+        gl.texStorage2D(gl.TEXTURE_2D, 1, inside, ROW, this.rows + 1);
+        for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+    }
+
+    /** Sends the numbers as they are; the last row is a part of one. */
+    send(numbers) {
+        const gl = this.gl, full = this.rows * ROW * this.parts;
+        gl.bindTexture(gl.TEXTURE_2D, this.texture);
+        if (this.rows) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, ROW, this.rows, this.format, gl.FLOAT, numbers, 0);
+        if (this.rest) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, this.rows, this.rest, 1, this.format, gl.FLOAT, numbers, full);
+    }
+}
+
+/** A texture of 256 colours. */
+function colourTexture(gl, colours) {
+    const texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+    return texture;
+}
+
+/** Puts an array into a new buffer that feeds an attribute of `parts` numbers, by vertex or (`step` 1) by instance. */
+function attribute(gl, index, array, parts, step) {
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, array, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(index);
+    if (array instanceof Int32Array) gl.vertexAttribIPointer(index, parts, gl.INT, 0, 0);
+    else gl.vertexAttribPointer(index, parts, gl.FLOAT, false, 0, 0);
+    gl.vertexAttribDivisor(index, step);
+}

@@ -1,0 +1,63 @@
+// The verdict: whether the run may be believed, in words first, with colour beside them.
+
+const GRADES = { good: "✓", fair: "▲", bad: "✕" };
+
+const worse = (a, b) => (["good", "fair", "bad"].indexOf(a) > ["good", "fair", "bad"].indexOf(b) ? a : b);
+
+/** Good up to `good`, fair up to `fair`. What is not known is not good. */
+const grade = (x, good, fair) => (x <= good ? "good" : x <= fair ? "fair" : "bad");
+
+function convergence({ steps, unconverged_steps: bad }) {
+    const all = steps === 1 ? "The one step" : `All ${plural(steps, "step")}`;
+    if (!bad) return ["good", "Convergence", `${all} converged`];
+    return [grade(bad, 0, 0.01 * steps), "Convergence", `${bad} of ${plural(steps, "step")} did not converge`];
+}
+
+function residual(verdict, { tolerance, criterion }) {
+    const worst = criterion === "scaled_residual" ? verdict.scaled_residual_max : verdict.eps_glob_max;
+    return [grade(worst, tolerance, 10 * tolerance), "Worst residual", `${figures(worst)} for a tolerance of ${figures(tolerance)}`];
+}
+
+function penetration(verdict, bodies) {
+    let least = Infinity;
+    bodies.radius.forEach((r, i) => {
+        if (r > 0 && bodies.free[i]) least = Math.min(least, r);
+    });
+    const deep = Math.max(verdict.penetration_max ?? NaN, 0);
+    const part = Number.isFinite(least) ? `, ${figures(100 * (deep / least), 2)} % of the smallest radius` : "";
+    return [grade(deep / least, 0.01, 0.05), "Deepest overlap", `${quantity(deep, "m")}${part}`];
+}
+
+function balance({ balance_error_max: error, energy_scale: whole }) {
+    const part = whole > 0 ? error / whole : error;
+    const words = whole > 0 ? `closes to ${figures(100 * part, 2)} % of ${quantity(whole, "J")}` : `is off by ${quantity(error, "J")}`;
+    return [grade(part, 1e-3, 1e-2), "Energy", `the balance ${words}`];
+}
+
+const OVERALL = { good: "This run can be trusted", fair: "This run is usable, with care", bad: "This run should not be trusted" };
+
+function showVerdict({ verdict, solver, bodies, live }) {
+    const parts = [convergence(verdict), residual(verdict, solver), penetration(verdict, bodies), balance(verdict)];
+    const whole = parts.map(([word]) => word).reduce(worse);
+    const left = verdict.planned_steps - verdict.steps;
+    const end = left > 0 ? ` ${live ? "So far" : "Ended early"}: ${verdict.steps} of ${plural(verdict.planned_steps, "step")}.` : "";
+    byId("verdict").replaceChildren(
+        element("p", { class: `overall ${whole}` }, element("b", {}, `${GRADES[whole]} ${OVERALL[whole]}.`), end),
+        ...parts.map(([word, title, text]) => element("p", { class: `part ${word}` },
+            element("span", { class: "grade" }, GRADES[word]), element("span", {}, element("b", {}, title), " ", text))),
+    );
+}
+
+function showHeader(meta) {
+    const { solver, verdict, bodies } = meta, free = bodies.free.reduce((sum, x) => sum + x, 0);
+    document.title = `${meta.title} · moreau`;
+    byId("title").textContent = meta.title;
+    const words = [
+        `${plural(free, "free body").replace("bodys", "bodies")} in ${meta.dimension === 3 ? "space" : "the plane"}`,
+        `${solver.global} + ${solver.local}`, `tolerance ${figures(solver.tolerance)}`,
+        `${figures(verdict.seconds?.total)} s on ${plural(verdict.threads ?? 1, "thread")}`, `moreau ${verdict.version}`,
+    ];
+    if (meta.thinned > 1) words.push(`each ${meta.thinned}th frame of the trajectory`);
+    byId("solver").textContent = words.join(" · ");
+    showVerdict(meta);
+}
