@@ -1,7 +1,7 @@
 //! `moreau compare`: the paper's tables and its figure 4.
 
+use crate::chart::{Curve, semilog};
 use crate::failure::{Failure, say, writable, write_whole};
-use crate::plot::{Curve, semilog};
 use crate::rho::{self, Study};
 use crate::table::aligned;
 use crate::{names, progress, scene};
@@ -195,7 +195,7 @@ fn figure(title: &str, criterion: Criterion, rows: &[Row]) -> String {
             })
             .collect(),
     };
-    semilog(title, "sweeps of NLGS", label, &rows.iter().map(curve).collect::<Vec<_>>())
+    semilog(title, "sweeps of NLGS", label, &rows.iter().map(curve).collect::<Vec<_>>()).svg()
 }
 
 fn verdict(rows: &[Row], at: u64) -> Result<(), Failure> {

@@ -101,10 +101,10 @@ pub(crate) fn writable(path: &Path) -> Result<(), Failure> {
 }
 
 /// Writes a whole file beside its place and renames it, so that nobody sees half of it.
-pub(crate) fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
+pub(crate) fn write_whole(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
     let write = || {
         let mut file = beside(path)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(bytes.as_ref())?;
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;

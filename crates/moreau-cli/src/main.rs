@@ -1,5 +1,6 @@
 //! The program `moreau`.
 
+mod chart;
 mod check;
 mod compare;
 mod convert;
@@ -11,6 +12,9 @@ mod plot;
 mod problem;
 mod profile;
 mod progress;
+mod render;
+mod report;
+
 mod rho;
 mod run;
 mod scene;
@@ -33,6 +37,12 @@ struct Cli {
 enum Command {
     /// Run a scene and write summary.json, steps.csv and files for ParaView
     Run(run::Args),
+    /// Make one page of a run that plays it in a browser, with charts and a verdict
+    Report(report::Args),
+    /// Make pictures or a movie of a run, without a display
+    Render(render::Args),
+    /// Plot what a run's steps tell: sweeps, residuals, energies, as SVG, PNG or PDF
+    Plot(plot::Args),
     /// Run a scene with several solvers from the same start and print the paper's table
     Compare(compare::Args),
     /// Solve problem files, FCLIB's .hdf5 or Siconos's .dat, and say how good the answers are
@@ -54,6 +64,9 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
+        Command::Report(args) => report::run(&args),
+        Command::Render(args) => render::run(&args),
+        Command::Plot(args) => plot::run(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Solve(args) => solve::solve(&args),
         Command::Profile(args) => profile::profile(&args),

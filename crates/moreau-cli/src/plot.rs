@@ -1,72 +1,103 @@
-//! Figures as SVG.
+//! `moreau plot`.
 
-use kuva::prelude::*;
-use std::sync::Arc;
+use crate::chart::{Chart, Curve, figure, linear, semilog};
+use crate::failure::{Failure, say, write_whole};
+use moreau_view::recording::Recording;
+use std::path::PathBuf;
 
-/// Colours that people with any colour vision tell apart (Okabe & Ito 2008).
-const COLOURS: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
-
-/// One curve.
-pub(crate) struct Curve {
-    pub(crate) name: String,
-    pub(crate) points: Vec<(f64, f64)>,
+/// Arguments of `moreau plot`.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The folder that moreau run wrote
+    run: PathBuf,
+    /// What is drawn, with commas between
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "sweeps,residual,penetration,energy")]
+    what: Vec<What>,
+    /// The figure, .svg, .png or .pdf [default: plot.svg in that folder]
+    #[arg(long)]
+    out: Option<PathBuf>,
 }
 
-/// Draws curves over a logarithmic vertical axis.
-///
-/// The logarithm is taken here and the ticks are labelled as powers: the library's own logarithmic axis ends at 1e-10.
-pub(crate) fn semilog(title: &str, x_label: &str, y_label: &str, curves: &[Curve]) -> String {
-    let log = |curve: &Curve| -> Vec<(f64, f64)> {
-        curve.points.iter().filter(|(_, y)| *y > 0.0).map(|&(x, y)| (x, y.log10())).collect()
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum What {
+    /// Sweeps of the solver in each step
+    Sweeps,
+    /// The parts of the paper's residual, and the scaled one
+    Residual,
+    /// The deepest overlap
+    Penetration,
+    /// Kinetic and potential energy, work and what was dissipated
+    Energy,
+    /// By how much the balance of energy does not close
+    Balance,
+    /// Contacts, and those with an impulse
+    Contacts,
+    /// Where the time of each step went
+    Seconds,
+}
+
+/// Draws and writes.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let run = Recording::open(&args.run).map_err(Failure::file)?;
+    let out = args.out.clone().unwrap_or_else(|| args.run.join("plot.svg"));
+    if run.column("step").is_empty() {
+        return Err(Failure::file(format!("{}: the trajectory has no step yet", args.run.display())));
+    }
+    let charts = args.what.iter().map(|&what| chart(&run, what)).collect();
+    let bytes = figure(&run.title(), charts, &out).map_err(|reason| Failure::usage(format!("{}: {reason}", out.display())))?;
+    write_whole(&out, &bytes)?;
+    say(&format!("{}: {} steps\n", out.display(), run.column("step").len()))
+}
+
+/// Curves of these columns over time.
+fn curves(run: &Recording, columns: &[(&str, &str)]) -> Vec<Curve> {
+    let curve = |&(column, name): &(&str, &str)| {
+        let points = run.column("time").iter().copied().zip(run.column(column).iter().copied());
+        Curve { name: name.to_owned(), points: points.filter(|(_, y)| y.is_finite()).collect() }
     };
-    let ticks = TickFormat::Custom(Arc::new(|exponent: f64| format!("1e{exponent:.0}")));
-    draw(title, x_label, y_label, curves, log, |layout| layout.with_y_tick_format(ticks).with_y_tick_step(1.0))
+    columns.iter().map(curve).collect()
 }
 
-/// Draws curves over linear axes.
-pub(crate) fn linear(title: &str, x_label: &str, y_label: &str, curves: &[Curve]) -> String {
-    draw(title, x_label, y_label, curves, |curve| curve.points.clone(), |layout| layout)
+fn chart(run: &Recording, what: What) -> Chart {
+    let time = "time (s)";
+    match what {
+        What::Sweeps => linear("Sweeps", time, "sweeps a step", &curves(run, &[("sweeps", "sweeps")])),
+        What::Residual => {
+            let parts = [
+                ("eps_motion", "ε of motion"),
+                ("eps_bipotential", "ε of the bipotential"),
+                ("eps_penetration", "ε of penetration"),
+                ("scaled_residual", "scaled"),
+            ];
+            semilog("Residuals", time, "residual", &curves(run, &parts))
+        }
+        What::Penetration => semilog("Deepest overlap", time, "overlap (m)", &curves(run, &[("penetration", "overlap")])),
+        What::Energy => {
+            let parts = [("kinetic", "kinetic"), ("potential", "potential"), ("work", "work"), ("dissipated", "dissipated")];
+            linear("Energy", time, "energy (J)", &from_start(curves(run, &parts)))
+        }
+        What::Balance => linear("Balance of energy", time, "error (J)", &curves(run, &[("balance_error", "error")])),
+        What::Contacts => {
+            linear("Contacts", time, "contacts", &curves(run, &[("contacts", "within reach"), ("active", "with an impulse")]))
+        }
+        What::Seconds => {
+            let parts = [
+                ("seconds_detect", "detection"),
+                ("seconds_localise", "localising"),
+                ("seconds_solve", "solving"),
+                ("seconds_step", "whole step"),
+            ];
+            semilog("Time of a step", time, "time (s)", &curves(run, &parts))
+        }
+    }
 }
 
-/// Draws performance profiles: parts from 0 to 1 over τ ≥ 1, whose logarithm to base 2 is taken here as in [`semilog`].
-pub(crate) fn profile(title: &str, curves: &[Curve]) -> String {
-    let log = |curve: &Curve| curve.points.iter().map(|&(tau, part)| (tau.log2(), part)).collect();
-    let ticks = TickFormat::Custom(Arc::new(|exponent: f64| format!("{}", exponent.exp2())));
-    let end = curves.iter().flat_map(|curve| &curve.points).map(|&(tau, _)| tau.log2()).fold(0.0, f64::max);
-    // Ten ticks or so, at whole powers.
-    let step = (end / 10.0).ceil().max(1.0);
-    let axes = |layout: Layout| {
-        let layout = layout.with_x_tick_format(ticks).with_x_tick_step(step).with_x_axis_min(0.0).with_x_axis_max(end.max(1.0));
-        layout.with_y_axis_min(0.0).with_y_axis_max(1.02).with_y_tick_step(0.2)
-    };
-    draw(title, "τ", "part of the problems", curves, log, axes)
-}
-
-fn draw(
-    title: &str,
-    x_label: &str,
-    y_label: &str,
-    curves: &[Curve],
-    points: impl Fn(&Curve) -> Vec<(f64, f64)>,
-    axes: impl FnOnce(Layout) -> Layout,
-) -> String {
-    let plots: Vec<Plot> = curves
-        .iter()
-        .enumerate()
-        .map(|(i, curve)| {
-            // Curves may lie on each other: thick and whole below, thin and broken above.
-            let line = LinePlot::new()
-                .with_data(points(curve))
-                .with_color(COLOURS[i % COLOURS.len()])
-                .with_stroke_width([6.0, 3.5, 3.5, 2.0, 1.5][i.min(4)])
-                .with_legend(curve.name.clone());
-            match i % 5 {
-                1 | 3 => line.with_dashed().into(),
-                4 => line.with_dotted().into(),
-                _ => line.into(),
-            }
-        })
-        .collect();
-    let layout = Layout::auto_from_plots(&plots).with_title(title).with_x_label(x_label).with_y_label(y_label);
-    render_to_svg(plots, axes(layout))
+/// Potential energy has no zero: its curve begins there.
+fn from_start(mut curves: Vec<Curve>) -> Vec<Curve> {
+    for curve in curves.iter_mut().filter(|curve| curve.name == "potential") {
+        let start = curve.points.first().map_or(0.0, |&(_, y)| y);
+        curve.name = "potential, from the start".to_owned();
+        curve.points.iter_mut().for_each(|(_, y)| *y -= start);
+    }
+    curves
 }

@@ -2,8 +2,8 @@
 
 mod curves;
 
+use crate::chart::profile as draw;
 use crate::failure::{Failure, say, writable, write_whole};
-use crate::plot::profile as draw;
 use crate::solve::How;
 use crate::table::aligned;
 use crate::{names, problem, progress};
@@ -183,7 +183,7 @@ fn write_profile(args: &Args, measure: &Measure) -> Result<(), Failure> {
     let file = |ending: &str| args.out.join(format!("profile-{}.{ending}", measure.what));
     write_whole(&file("csv"), &measure.csv())?;
     let title = format!("part of the problems solved within τ times the least {}", measure.what);
-    write_whole(&file("svg"), &draw(&title, &measure.curves()))
+    write_whole(&file("svg"), draw(&title, &measure.curves()).svg())
 }
 
 /// The table of all methods.

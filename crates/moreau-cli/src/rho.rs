@@ -1,7 +1,7 @@
 //! `moreau compare --rho`: how the number of sweeps depends on the parameter ρ of the standard methods.
 
+use crate::chart::{Curve, linear};
 use crate::failure::{Failure, write_whole};
-use crate::plot::{Curve, linear};
 use crate::progress;
 use moreau::compare::{Methods, compare_one};
 use moreau::run::End;
@@ -61,7 +61,7 @@ pub(crate) fn study<S: Space<D, N>, const D: usize, const N: usize>(
         write_whole(path, &csv)?;
     }
     if let Some(path) = study.plot {
-        write_whole(path, &linear("sweeps a step against ρ", "ρ relative to 1/W", "sweeps of NLGS a step", &curves))?;
+        write_whole(path, &linear("sweeps a step against ρ", "ρ relative to 1/W", "sweeps of NLGS a step", &curves).svg())?;
     }
     Ok((rows, interrupted))
 }

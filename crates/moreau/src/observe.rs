@@ -27,7 +27,10 @@ use std::path::PathBuf;
 /// The table of outputs.
 pub const OUTPUTS: &[Row] = &[
     Row { name: "steps", about: "steps.csv: a row a step with sweeps, residuals, penetration, energies, seconds" },
-    Row { name: "trajectory", about: "trajectory.h5: bodies and contacts of each frame and the records of steps, for moreau's own views and for Python" },
+    Row {
+        name: "trajectory",
+        about: "trajectory.h5: bodies and contacts of each frame and the records of steps, for moreau's own views and for Python",
+    },
     Row { name: "vtk", about: "vtk/: bodies, contacts, shapes, interfaces for ParaView, compressed, with .pvd collections" },
 ];
 

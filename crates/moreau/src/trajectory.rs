@@ -15,9 +15,10 @@
 //! | `contacts/point`, `normal`, `impulse` | contact | `D` | m; unit, from a to b; that of the step on b, in the world, N·s |
 //! | `contacts/gap` | contact | 1 | m, at the predicted configuration |
 //! | `contacts/status` | contact | 1 | 0 without impulse, 1 sticking, 2 sliding |
-//! | `steps/…` | step | 1 | the columns of `steps.csv` |
+//! | `steps` | step | as many as columns | the row of `steps.csv` |
 //!
-//! The root has the attributes `format` (`moreau trajectory`), `version`, `dimension`, `title`, `step` (s) and `every`. What is real is in
+//! The root has the attributes `format` (`moreau trajectory`), `version`, `dimension`, `title`, `step` (s), `every` and
+//! `columns`, the names of those of `steps` with commas between them. What is real is in
 //! single or double precision by choice, times, masses, radii and records in double always.
 //!
 //! Frames are appended some at a time, and `frames/step` last: a frame that is listed there is whole, whenever the run was killed and while it

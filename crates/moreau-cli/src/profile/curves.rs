@@ -1,7 +1,7 @@
 //! Performance profiles (Dolan & Moré 2002): for each method ρ(τ), the part of the problems that it solves at a cost of at most τ
 //! times the least cost of any method.
 
-use crate::plot::Curve;
+use crate::chart::Curve;
 use std::fmt::Write;
 
 /// One kind of cost of all methods on all problems, relative to the least.

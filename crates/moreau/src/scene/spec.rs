@@ -288,7 +288,12 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Self {
-        Self { folder: None, every: None, kinds: vec![OutputKind::Vtk, OutputKind::Steps, OutputKind::Trajectory], precision: Precision::Single }
+        Self {
+            folder: None,
+            every: None,
+            kinds: vec![OutputKind::Vtk, OutputKind::Steps, OutputKind::Trajectory],
+            precision: Precision::Single,
+        }
     }
 }
 

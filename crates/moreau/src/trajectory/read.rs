@@ -121,16 +121,14 @@ impl Trajectory {
         Ok(TrajectoryFrame { step, time, position, rotation, velocity, spin, pairs, point, normal, impulse, gap, status })
     }
 
-    /// The records of steps, a column after the other as in `steps.csv`; a step that only some have is left out.
+    /// The records of steps, a column after the other as in `steps.csv`.
     ///
     /// # Errors
     /// Where the file cannot be read.
     pub fn columns(&self) -> Result<Vec<Vec<f64>>, TrajectoryError> {
-        let column = |name: &&str| read(&self.file, &self.path, &format!("steps/{name}"), Dataset::read_f64);
-        let mut columns = COLUMNS.iter().map(column).collect::<Result<Vec<_>, _>>()?;
-        let steps = columns.iter().map(Vec::len).min().unwrap_or(0);
-        columns.iter_mut().for_each(|column| column.truncate(steps));
-        Ok(columns)
+        let numbers = read(&self.file, &self.path, "steps", Dataset::read_f64)?;
+        let (rows, _) = numbers.as_chunks::<{ COLUMNS.len() }>();
+        Ok((0..COLUMNS.len()).map(|k| rows.iter().map(|row| row[k]).collect()).collect())
     }
 
     /// Some numbers of a dataset, from one on.
@@ -164,7 +162,10 @@ fn header(file: &File, path: &Path) -> Result<Header, TrajectoryError> {
         _ => None,
     };
     if text("format").as_deref() != Some(FORMAT) {
-        return Err(TrajectoryError::new(path, format!("it has no attribute format with the value {FORMAT:?}: it is no trajectory")));
+        return Err(TrajectoryError::new(
+            path,
+            format!("it has no attribute format with the value {FORMAT:?}: it is no trajectory"),
+        ));
     }
     let version = integer("version").unwrap_or(0);
     if version != VERSION {

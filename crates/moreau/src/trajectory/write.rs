@@ -2,7 +2,7 @@
 
 use super::{Batch, FORMAT, PAIRS, Precision, REALS, TrajectoryError, VERSION, widths};
 use crate::observe::COLUMNS;
-use hdf5_pure::{AttrValue, Error, File, FileAccessProperties, FileBuilder, GroupBuilder, H5Element, MaxExtent, SyncPolicy};
+use hdf5_pure::{AttrValue, DatasetBuilder, Error, File, FileAccessProperties, FileBuilder, H5Element, MaxExtent, SyncPolicy};
 use std::path::{Path, PathBuf};
 
 /// About how many numbers a chunk holds: so much is compressed, and read, at a time.
@@ -87,10 +87,7 @@ impl TrajectoryWriter {
             grow(file, name, values)?;
         }
         grow(file, "contacts/status", &batch.status)?;
-        for (k, column) in COLUMNS.iter().enumerate() {
-            let values: Vec<f64> = batch.rows.iter().map(|row| row[k]).collect();
-            grow(file, &format!("steps/{column}"), &values)?;
-        }
+        grow(file, "steps", batch.rows.as_flattened())?;
         grow(file, "frames/time", &batch.time)?;
         let mut end = self.contacts;
         let ends = batch.contacts.iter().map(|count| {
@@ -124,6 +121,7 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
     file.set_attr("title", AttrValue::String(header.title.clone()));
     file.set_attr("step", AttrValue::F64(header.step));
     file.set_attr("every", AttrValue::U64(header.every));
+    file.set_attr("columns", AttrValue::String(COLUMNS.join(",")));
     let mut bodies = file.create_group("bodies");
     bodies.create_dataset("radius").with_f64_data(&header.radius);
     bodies.create_dataset("mass").with_f64_data(&header.mass);
@@ -140,26 +138,24 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
         let chunk = (one * (CHUNK / one.max(1)).max(1)).clamp(1, CHUNK << 6);
         let group = if of_frames { &mut frames } else { &mut contacts };
         match precision {
-            Precision::Single => growing(group, name, &[0_f32; 0], chunk),
-            Precision::Double => growing(group, name, &[0_f64; 0], chunk),
+            Precision::Single => growing(group.create_dataset(name), &[0_f32; 0], chunk),
+            Precision::Double => growing(group.create_dataset(name), &[0_f64; 0], chunk),
         }
     }
-    growing(&mut frames, "step", &[0_u64; 0], CHUNK >> 4);
-    growing(&mut frames, "time", &[0_f64; 0], CHUNK >> 4);
-    growing(&mut frames, "contacts", &[0_u64; 0], CHUNK >> 4);
-    growing(&mut contacts, "a", &[0_u32; 0], CHUNK);
-    growing(&mut contacts, "b", &[0_u32; 0], CHUNK);
-    growing(&mut contacts, "status", &[0_u8; 0], CHUNK);
+    growing(frames.create_dataset("step"), &[0_u64; 0], CHUNK >> 4);
+    growing(frames.create_dataset("time"), &[0_f64; 0], CHUNK >> 4);
+    growing(frames.create_dataset("contacts"), &[0_u64; 0], CHUNK >> 4);
+    growing(contacts.create_dataset("a"), &[0_u32; 0], CHUNK);
+    growing(contacts.create_dataset("b"), &[0_u32; 0], CHUNK);
+    growing(contacts.create_dataset("status"), &[0_u8; 0], CHUNK);
     file.add_group(frames.finish());
     file.add_group(contacts.finish());
-    let mut steps = file.create_group("steps");
-    COLUMNS.iter().for_each(|column| growing(&mut steps, column, &[0_f64; 0], CHUNK >> 4));
-    file.add_group(steps.finish());
+    growing(file.create_dataset("steps"), &[0_f64; 0], CHUNK);
     file
 }
 
 /// A dataset that is appended to.
-fn growing<T: H5Element>(group: &mut GroupBuilder, name: &str, none: &[T], chunk: usize) {
-    let dataset = group.create_dataset(name).with_data(none).with_shape(&[0]).with_maxshape(&[MaxExtent::Unlimited]);
+fn growing<T: H5Element>(dataset: &mut DatasetBuilder, none: &[T], chunk: usize) {
+    let dataset = dataset.with_data(none).with_shape(&[0]).with_maxshape(&[MaxExtent::Unlimited]);
     dataset.with_chunks(&[chunk as u64]).with_shuffle().with_deflate(LEVEL);
 }
