@@ -27,9 +27,12 @@ const SLACK: f64 = 1e-12;
 /// How many bodies or pairs a thread takes at a time; fewer are not worth a thread.
 const CHUNK: usize = 4096;
 
-/// Whether so many bodies or pairs are shared out among threads.
-fn is_shared(count: usize) -> bool {
-    count > CHUNK && rayon::current_num_threads() > 1
+/// How many pairs a thread takes at a time where bodies are not round: the contacts of two take hundreds of times as long.
+const CHUNK_OF_SHAPES: usize = 64;
+
+/// Whether so many bodies or pairs are shared out among threads, which take so many at a time.
+fn is_shared(count: usize, chunk: usize) -> bool {
+    count > chunk && rayon::current_num_threads() > 1
 }
 
 /// The bodies of a call, in slices of one length.
@@ -73,7 +76,8 @@ impl<const D: usize> Detector<D> {
         if !self.nearby.still_holds(&scene, &driven, &mut self.bounds) {
             self.nearby.rebuild(&scene, &driven, &self.bounds);
         }
-        self.sieve.contacts(&scene, &self.bounds, self.nearby.pairs(), out);
+        let chunk = if self.nearby.all_round() { CHUNK } else { CHUNK_OF_SHAPES };
+        self.sieve.contacts(&scene, &self.bounds, self.nearby.pairs(), chunk, out);
     }
 }
 

@@ -1,7 +1,9 @@
 //! Bodies with faces, edges and corners: how they fall, spin and come to rest, against closed forms.
 
 use glam::{DQuat, DVec3};
+use moreau::detect::Detector;
 use moreau::scene::{AnyWorld, Scene};
+use moreau::shape::Shape;
 use moreau::space::Solid;
 use moreau::step::{StepRecord, Workspace, step};
 use moreau::world::World;
@@ -266,4 +268,38 @@ fn overlaps_are_taken_out_of_positions_without_a_change_of_velocity() {
     // Raised bodies have more potential energy: that is work, and nothing else.
     let lift = world.bodies.mass[0][0] * G * 0.002;
     assert!(lift > 0.0);
+}
+
+/// Boxes that fall through each other's corners in long steps never overlap by more than is allowed at the end of one.
+#[test]
+fn no_step_ends_with_an_overlap_that_is_not_allowed() {
+    let mut text = String::from(
+        "dimension = 3
+         gravity = [0.0, 0.0, -9.81]
+         time = { step = 5e-3, steps = 1 }
+         solver = { criterion = \"scaled\", tolerance = 1e-6, start = \"warm\", max_penetration = 1e-3 }
+         materials.stone.density = 2e3
+         default_law.coulomb = { friction = 0.5, acts = \"approach\" }
+         containers = [{ min = [-0.2, -0.2, 0.0], max = [0.2, 0.2, 1.0], open = [\"+z\"], material = \"stone\" }]\n",
+    );
+    for i in 0..24 {
+        let (x, y, z) = (0.2 * f64::from(i % 2) - 0.1, 0.2 * f64::from(i / 2 % 2) - 0.1, 0.15 + 0.2 * f64::from(i / 4));
+        let degrees = 37.0 * f64::from(i);
+        text += &format!(
+            "[[bodies]]\nmaterial = \"stone\"\nshape.box.size = [0.05, 0.1, 0.15]\nposition = [{x:?}, {y:?}, {z:?}]\n\
+             orientation = {{ axis = [1, 2, 3], degrees = {degrees:?} }}\n"
+        );
+    }
+    let mut world = world(&text);
+    let radius = world.bodies.shape[0].bounding_radius().unwrap();
+    let (reach, mut found, mut deepest) = (vec![0.0; world.bodies.len()], Vec::new(), 0.0_f64);
+    run(&mut world, 200, |world, record| {
+        let bodies = &world.bodies;
+        Detector::new().detect::<Solid, 6>(&bodies.shape, &bodies.pose, &reach, |i| !bodies.is_free(i), &mut found);
+        let overlap = found.iter().map(|c| -c.gap).fold(0.0, f64::max) / radius;
+        assert!(overlap <= 1e-3, "step {}: {overlap}", record.step);
+        deepest = deepest.max(record.penetration / radius);
+    });
+    // There was something to correct.
+    assert!(deepest > 3e-4, "{deepest}");
 }

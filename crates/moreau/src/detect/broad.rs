@@ -68,7 +68,7 @@ impl<const D: usize> Grid<D> {
         self.build(spheres);
         let count = spheres.len();
         let mut searches = std::mem::take(&mut self.searches);
-        if is_shared(count) {
+        if is_shared(count, CHUNK) {
             searches.resize_with(count.div_ceil(CHUNK).max(searches.len()), Search::default);
             searches.par_iter_mut().enumerate().for_each(|(chunk, search)| {
                 let Search { hits, pairs } = search;

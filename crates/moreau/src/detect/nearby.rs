@@ -18,6 +18,8 @@ pub(super) struct Nearby<const D: usize> {
     walls: Vec<Wall<D>>,
     walls_before: Vec<Wall<D>>,
     pairs: Pairs,
+    /// Whether all bodies with a bounding ball were round when the list was made.
+    round: bool,
     /// How many calls it has served beyond the one that made it.
     pub(super) calls: u32,
     skins: Skins,
@@ -29,6 +31,11 @@ impl<const D: usize> Nearby<D> {
     /// The pairs, lower index first, ascending, each once.
     pub(super) fn pairs(&self) -> &[(u32, u32)] {
         self.pairs.list()
+    }
+
+    /// Whether bodies are round, but for those without a bounding ball; if some have changed since the list was made, it is no more than a guess.
+    pub(super) fn all_round(&self) -> bool {
+        self.round
     }
 
     /// Fills in the bounding balls of the call and says whether every body is where it was held: whether no pair outside the list
@@ -55,7 +62,7 @@ impl<const D: usize> Nearby<D> {
             }
             all
         };
-        let bodies = if is_shared(count) {
+        let bodies = if is_shared(count, CHUNK) {
             let chunks = bounds.par_chunks_mut(CHUNK).zip(self.holds.par_chunks(CHUNK)).enumerate();
             chunks.map(look).reduce(|| true, |a, b| a & b)
         } else {
@@ -110,10 +117,12 @@ impl<const D: usize> Nearby<D> {
         self.spheres.clear();
         std::mem::swap(&mut self.walls, &mut self.walls_before);
         self.walls.clear();
+        self.round = true;
         for (body, (bound, hold)) in (0..).zip(bounds.iter().zip(&mut self.holds)) {
             let centre = bound.centre;
             let mut radius = if bound.is_nowhere() { f64::NAN } else { bound.radius };
             if bound.is_bounded() {
+                self.round &= bound.round().is_some();
                 let wide = bound.radius + self.skins.of_body(hold, self.calls, bound);
                 radius = if wide * (1.0 + SLACK) < f64::INFINITY { wide } else { radius };
                 self.spheres.push(Sphere { centre, radius: radius * (1.0 + SLACK), body });

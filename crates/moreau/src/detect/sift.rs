@@ -2,7 +2,7 @@
 
 use super::bound::Bound;
 use super::narrow::two_round;
-use super::{CHUNK, Scene, is_shared};
+use super::{Scene, is_shared};
 use crate::contacts::{Contact, ContactKey};
 use crate::shape::Shape;
 use crate::space::Space;
@@ -22,25 +22,26 @@ struct Part<const D: usize> {
 }
 
 impl<const D: usize> Sieve<D> {
-    /// Clears `out` and fills it with the contacts of the pairs, in their order.
+    /// Clears `out` and fills it with the contacts of the pairs, in their order; threads take `chunk` of them at a time.
     pub(super) fn contacts<S: Space<D, N>, const N: usize>(
         &mut self,
         scene: &Scene<'_, S, D, N>,
         bounds: &[Bound<D>],
         pairs: &[(u32, u32)],
+        chunk: usize,
         out: &mut Vec<Contact<D>>,
     ) {
-        let chunks = if is_shared(pairs.len()) { pairs.len().div_ceil(CHUNK) } else { 1 };
+        let chunks = if is_shared(pairs.len(), chunk) { pairs.len().div_ceil(chunk) } else { 1 };
         if self.parts.len() < chunks {
             self.parts.resize_with(chunks, Part::default);
         }
         if chunks == 1 {
             out.clear();
             let meeting = &mut self.parts[0].meeting;
-            pairs.chunks(CHUNK).for_each(|chunk| narrow(scene, bounds, meet(bounds, chunk, meeting), out));
+            pairs.chunks(chunk).for_each(|chunk| narrow(scene, bounds, meet(bounds, chunk, meeting), out));
             return;
         }
-        self.parts.par_iter_mut().zip(pairs.par_chunks(CHUNK)).for_each(|(part, chunk)| {
+        self.parts.par_iter_mut().zip(pairs.par_chunks(chunk)).for_each(|(part, chunk)| {
             part.contacts.clear();
             narrow(scene, bounds, meet(bounds, chunk, &mut part.meeting), &mut part.contacts);
         });

@@ -2,7 +2,7 @@
 
 use super::correct;
 use super::failed::{self, FAILED_KEPT, FailedSolve};
-use super::localise::{Localiser, margins};
+use super::localise::{Localiser, margins, speed};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
@@ -159,16 +159,12 @@ fn reach<S: Space<D, N>, const D: usize, const N: usize>(
     h: f64,
     approach: bool,
 ) -> f64 {
-    let radius = world.bodies.shape[i].bounding_radius().unwrap_or(0.0);
     let [beside, rounding] = margins(&world.bodies, i, 0.01);
     if !approach {
         return rounding;
     }
-    let speed = |v: &[f64; N]| {
-        let spin = (D..N).map(|k| v[k] * v[k]).sum::<f64>().sqrt();
-        (0..D).map(|k| v[k] * v[k]).sum::<f64>().sqrt() + spin * radius
-    };
-    2.0 * h * speed(free).max(speed(&world.bodies.velocity[i])) + beside + rounding
+    let fastest = speed(&world.bodies, i, free).max(speed(&world.bodies, i, &world.bodies.velocity[i]));
+    2.0 * h * fastest + beside + rounding
 }
 
 /// Localises the contacts that were found into the system of the coordinates that they need.

@@ -18,7 +18,7 @@ use crate::detect::narrow::common::LEVEL;
 use crate::detect::narrow::vector::{along, dot};
 use crate::shape::solid::{Edge, Faceted};
 use crate::space::{Solid, Space};
-use axes::{Axis, best};
+use axes::{Axis, Crossing, are_beyond, best};
 use nearest::nearest;
 use overlap::overlap;
 pub(super) use points::Points;
@@ -42,45 +42,56 @@ pub(super) struct Point {
 /// What a pair is computed in; each thread keeps its own from pair to pair, so that nothing is allocated anew.
 #[derive(Default)]
 struct Scratch {
-    a: Corners,
-    b: Corners,
     points: Points,
     /// The corners of two faces in their common plane.
     flat: [Vec<[f64; 2]>; 2],
-    /// On which side of the plane across an edge the normals of the other body's faces are.
-    sides: Vec<i8>,
+    crossing: Crossing,
 }
 
 thread_local! {
+    static CORNERS: RefCell<[Corners; 2]> = RefCell::default();
     static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
-/// Vertices and normals of a body in the frame of the first.
+/// Vertices and normals of a body in the frame in which it is seen.
 #[derive(Default)]
-struct Corners {
+pub(super) struct Corners {
     vertices: Vec<[f64; 3]>,
     normals: Vec<[f64; 3]>,
 }
 
 impl Corners {
-    fn fill<F: Faceted>(&mut self, body: &F, place: impl Fn([f64; 3]) -> [f64; 3], turn: impl Fn([f64; 3]) -> [f64; 3]) {
+    /// Those of a body that has its own frame.
+    fn own(&mut self, body: &impl Faceted) {
         self.vertices.clear();
-        self.vertices.extend((0..body.vertices()).map(|i| place(body.vertex(i))));
+        self.vertices.extend((0..body.vertices()).map(|i| body.vertex(i)));
         self.normals.clear();
-        self.normals.extend((0..body.faces()).map(|i| turn(body.normal(i))));
+        self.normals.extend((0..body.faces()).map(|i| body.normal(i)));
+    }
+
+    /// Those of a body in this place.
+    pub(super) fn place(&mut self, body: &impl Faceted, pose: &Pose) {
+        self.own(body);
+        let turn = |v: &[f64; 3]| Solid::rotate(pose.rotation, *v);
+        self.vertices.iter_mut().for_each(|v| *v = along(pose.position, 1.0, turn(v)));
+        self.normals.iter_mut().for_each(|n| *n = turn(n));
+    }
+
+    pub(super) fn vertices(&self) -> &[[f64; 3]] {
+        &self.vertices
     }
 }
 
-/// A body as seen in the frame of the first.
+/// A body as seen in some frame.
 #[derive(Clone, Copy)]
-struct Seen<'a, F> {
-    body: &'a F,
-    vertices: &'a [[f64; 3]],
-    normals: &'a [[f64; 3]],
+pub(super) struct Seen<'a, F> {
+    pub(super) body: &'a F,
+    pub(super) vertices: &'a [[f64; 3]],
+    pub(super) normals: &'a [[f64; 3]],
 }
 
 impl<'a, F: Faceted> Seen<'a, F> {
-    fn new(body: &'a F, Corners { vertices, normals }: &'a Corners) -> Self {
+    pub(super) fn new(body: &'a F, Corners { vertices, normals }: &'a Corners) -> Self {
         Self { body, vertices, normals }
     }
 
@@ -116,65 +127,68 @@ pub(super) fn collide<A: Faceted, B: Faceted>(
     reach: f64,
     emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
-    let mut scratch = SCRATCH.take();
-    points((a, pose_a), None, (b, pose_b), reach, &mut scratch);
-    show(scratch, pose_a, emit);
+    let there = seen_from(pose_a, pose_b);
+    let mut corners = CORNERS.take();
+    corners[0].own(a);
+    corners[1].place(b, &there);
+    let (a, b) = (Seen::new(a, &corners[0]), Seen::new(b, &corners[1]));
+    if !are_beyond(&a, &b, there.position, reach) {
+        points(&a, None, &b, reach, &mut |feature, middle, normal, gap| {
+            let middle = along(pose_a.position, 1.0, Solid::rotate(pose_a.rotation, middle));
+            emit(feature, middle, Solid::rotate(pose_a.rotation, normal), gap);
+        });
+    }
+    CORNERS.set(corners);
 }
 
-/// The points along the normal of one face of the first body, wherever the bodies are nearest.
-pub(super) fn along_face<A: Faceted, B: Faceted>(
-    (a, pose_a): (&A, &Pose),
-    face: usize,
-    (b, pose_b): (&B, &Pose),
+/// Hands over the points of contact of two bodies in the frame in which both are seen: where they are nearest or, if a face of the first one is
+/// given, along its normal.
+pub(super) fn points<A: Faceted, B: Faceted>(
+    a: &Seen<'_, A>,
+    face: Option<usize>,
+    b: &Seen<'_, B>,
     reach: f64,
     emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     let mut scratch = SCRATCH.take();
-    points((a, pose_a), Some(face), (b, pose_b), reach, &mut scratch);
-    show(scratch, pose_a, emit);
-}
-
-/// Hands over the points in the world, and puts the scratch back.
-fn show(scratch: Scratch, pose: &Pose, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+    scratch.points.clear();
+    match face {
+        Some(face) => scratch.along(a, face, b),
+        None => scratch.nearest(a, b, reach),
+    }
+    scratch.points.spread(level(a, b), reach);
     for &Point { feature, at, normal, gap } in scratch.points.all() {
-        let middle = Solid::rotate(pose.rotation, along(at, -0.5 * gap, normal));
-        emit(feature, along(pose.position, 1.0, middle), Solid::rotate(pose.rotation, normal), gap);
+        emit(feature, along(at, -0.5 * gap, normal), normal, gap);
     }
     SCRATCH.set(scratch);
 }
 
-/// Leaves the points of contact in the scratch: where the bodies are nearest or, if a face of the first one is given, along its normal.
-fn points<A: Faceted, B: Faceted>(
-    (a, pose_a): (&A, &Pose),
-    face: Option<usize>,
-    (b, pose_b): (&B, &Pose),
-    reach: f64,
-    scratch: &mut Scratch,
-) {
-    let Scratch { a: corners_a, b: corners_b, points, flat, sides } = scratch;
-    points.clear();
-    let Pose { position, rotation } = seen_from(pose_a, pose_b);
-    let turn = |v| Solid::rotate(rotation, v);
-    corners_a.fill(a, |v| v, |n| n);
-    corners_b.fill(b, |v| along(position, 1.0, turn(v)), turn);
-    let (a, b) = (Seen::new(a, corners_a), Seen::new(b, corners_b));
-    let level = LEVEL * (a.body.radius() + b.body.radius());
-    if let Some(face) = face {
-        overlap(&a, face, &b, true, level, flat, points);
-    } else {
-        let Some((axis, apart)) = best(&a, &b, position, sides, level, reach) else { return };
+/// What rounding may do to lengths of two bodies, m.
+fn level<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>) -> f64 {
+    LEVEL * (a.body.radius() + b.body.radius())
+}
+
+impl Scratch {
+    /// The points along the normal of a face of the first body.
+    fn along<A: Faceted, B: Faceted>(&mut self, a: &Seen<'_, A>, face: usize, b: &Seen<'_, B>) {
+        overlap(a, face, b, true, level(a, b), &mut self.flat, &mut self.points);
+    }
+
+    /// The points where the bodies are nearest.
+    fn nearest<A: Faceted, B: Faceted>(&mut self, a: &Seen<'_, A>, b: &Seen<'_, B>, reach: f64) {
+        let level = level(a, b);
+        let Some((axis, apart)) = best(a, b, &mut self.crossing, level, reach) else { return };
         match axis {
-            Axis::FaceOfFirst(face) => overlap(&a, face, &b, true, level, flat, points),
-            Axis::FaceOfSecond(face) => overlap(&b, face, &a, false, level, flat, points),
-            Axis::Edges(point, true) => points.add(point),
+            Axis::FaceOfFirst(face) => self.along(a, face, b),
+            Axis::FaceOfSecond(face) => overlap(b, face, a, false, level, &mut self.flat, &mut self.points),
+            Axis::Edges(point, true) => self.points.add(point),
             Axis::Edges(_, false) => {}
         }
-        let least = points.all().iter().map(|point| point.gap).fold(f64::INFINITY, f64::min);
+        let least = self.points.all().iter().map(|point| point.gap).fold(f64::INFINITY, f64::min);
         // Where the bodies are apart and a face or two edges are nearest, the axis has their distance.
         if least > apart.max(0.0) + level {
-            points.clear();
-            points.add(nearest(&a, &b, &axis, apart, level));
+            self.points.clear();
+            self.points.add(nearest(a, b, &axis, apart, level));
         }
     }
-    points.spread(level, reach);
 }

@@ -14,58 +14,77 @@ mod round;
 mod thin;
 mod triangle;
 
+use super::Pose;
 use super::curved::seen_from;
-use super::{Pose, facets};
+use super::facets::{self, Corners, Seen};
 use crate::detect::narrow::common::{LEVEL, on_piece};
 use crate::detect::narrow::vector::{along, dot, sub};
 use crate::mesh::Aabb;
 use crate::shape::solid::{Faceted, On, Surface};
 use crate::space::{Solid, Space};
 use ball::nearest;
-use std::cell::Cell;
+use std::cell::RefCell;
 use thin::{Found, thin};
 use triangle::Triangle;
 
-/// A body that can touch a triangle. Poses, points and normals are in the frame of the triangle.
-pub(super) trait Touches {
-    /// The box around it.
-    fn around(&self, pose: &Pose) -> Aabb;
+/// A body in the frame of the surface, which is that of the triangles.
+pub(super) struct There<'a, B> {
+    body: &'a B,
+    pose: Pose,
+    /// Its corners and normals, for a body that has such.
+    corners: Corners,
+}
+
+/// A body that can touch a triangle. Directions, points and normals are in the frame of the surface.
+pub(super) trait Touches: Sized {
+    /// Turns what it has of corners and normals, once for all triangles.
+    fn place(&self, _: &Pose, _: &mut Corners) {}
 
     /// Radius of the ball around its position that holds it, m.
     fn size(&self) -> f64;
 
+    /// The box around it.
+    fn around(there: &There<'_, Self>) -> Aabb;
+
     /// How far it goes in a direction: the greatest product of that with its points.
-    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64;
+    fn height(there: &There<'_, Self>, direction: [f64; 3]) -> f64;
 
     /// Its contacts with a triangle, normals from that, by 32-bit features that ascend.
-    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64));
+    fn touch(there: &There<'_, Self>, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64));
 
     /// Those along the normal of the triangle; none for a body that has all that there are already.
-    fn touch_front(&self, _: &Pose, _: &Triangle, _: f64, _: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {}
+    fn touch_front(_: &There<'_, Self>, _: &Triangle, _: f64, _: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {}
 }
 
 /// What has flat faces meets a triangle as it meets any such body.
 impl<F: Faceted> Touches for F {
-    fn around(&self, pose: &Pose) -> Aabb {
-        Aabb::around((0..self.vertices()).map(|i| along(pose.position, 1.0, Solid::rotate(pose.rotation, self.vertex(i)))))
+    fn place(&self, pose: &Pose, corners: &mut Corners) {
+        corners.place(self, pose);
     }
 
     fn size(&self) -> f64 {
         self.radius()
     }
 
-    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
-        let own = Solid::unrotate(pose.rotation, direction);
-        let highest = (0..self.vertices()).map(|i| dot(own, self.vertex(i))).fold(f64::NEG_INFINITY, f64::max);
-        dot(direction, pose.position) + highest
+    fn around(there: &There<'_, Self>) -> Aabb {
+        Aabb::around(there.corners.vertices().iter().copied())
     }
 
-    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
-        facets::collide((triangle, &HERE), (self, pose), reach, emit);
+    fn height(there: &There<'_, Self>, direction: [f64; 3]) -> f64 {
+        there.corners.vertices().iter().map(|&vertex| dot(direction, vertex)).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    fn touch_front(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
-        facets::along_face((triangle, &HERE), Triangle::FRONT, (self, pose), reach, emit);
+    fn touch(there: &There<'_, Self>, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+        facets::points(&triangle.seen(), None, &Seen::new(there.body, &there.corners), reach, emit);
+    }
+
+    fn touch_front(
+        there: &There<'_, Self>,
+        triangle: &Triangle,
+        reach: f64,
+        emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+    ) {
+        facets::points(&triangle.seen(), Some(Triangle::FRONT), &Seen::new(there.body, &there.corners), reach, emit);
     }
 }
 
@@ -74,7 +93,7 @@ const HERE: Pose = Pose { position: [0.0; 3], rotation: Solid::IDENTITY };
 
 thread_local! {
     /// Scratch of a query, kept from one to the next.
-    static SCRATCH: Cell<Vec<Found>> = const { Cell::new(Vec::new()) };
+    static SCRATCH: RefCell<(Vec<Found>, Corners)> = RefCell::default();
 }
 
 pub(super) fn collide<B: Touches>(
@@ -84,10 +103,12 @@ pub(super) fn collide<B: Touches>(
     emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
 ) {
     let pose = seen_from(pose_a, pose_b);
-    let near = body.around(&pose).grown(reach.max(0.0) + LEVEL * body.size());
-    let query = Query { surface, body, pose, reach };
-    let mut found = SCRATCH.take();
+    let (mut found, mut corners) = SCRATCH.take();
     found.clear();
+    body.place(&pose, &mut corners);
+    let there = There { body, pose, corners };
+    let near = B::around(&there).grown(reach.max(0.0) + LEVEL * body.size());
+    let query = Query { surface, there, reach };
     let mut deep = None;
     surface.near(&near, |triangle| query.touch(triangle as usize, &mut found, &mut deep));
     if let (true, Some((_, triangle))) = (found.is_empty(), deep) {
@@ -98,14 +119,13 @@ pub(super) fn collide<B: Touches>(
         let world = along(pose_a.position, 1.0, Solid::rotate(pose_a.rotation, point));
         emit(feature, world, Solid::rotate(pose_a.rotation, normal), gap);
     }
-    SCRATCH.set(found);
+    SCRATCH.set((found, query.there.corners));
 }
 
 /// A surface and a body in its frame.
 struct Query<'a, B> {
     surface: &'a Surface,
-    body: &'a B,
-    pose: Pose,
+    there: There<'a, B>,
     reach: f64,
 }
 
@@ -113,15 +133,15 @@ impl<B: Touches> Query<'_, B> {
     /// Adds the points that the body has with one triangle. Of triangles that have none but traces of their borders where the surface bends,
     /// `deep` gets the gap and number of the one that the body leaves soonest along its normal.
     fn touch(&self, number: usize, found: &mut Vec<Found>, deep: &mut Option<(f64, usize)>) {
-        let (surface, body) = (self.surface, self.body);
+        let (surface, there) = (self.surface, &self.there);
         if self.is_beyond(surface.corners(number)) {
             return;
         }
         let (triangle, front) = (self.triangle(number), surface.normal(number));
-        let level = 16.0 * LEVEL * (triangle.radius() + body.size());
+        let level = 16.0 * LEVEL * (triangle.radius() + there.body.size());
         let first = found.len();
         let (mut flat, mut bent) = (false, false);
-        body.touch(&self.pose, &triangle, self.reach, &mut |own, point, normal, gap| {
+        B::touch(there, &triangle, self.reach, &mut |own, point, normal, gap| {
             let feature = on_piece(number, own);
             if surface.is_front(number, normal) {
                 found.push(Found { feature, point, normal: front, gap });
@@ -135,13 +155,13 @@ impl<B: Touches> Query<'_, B> {
                 bent = true;
             }
         });
-        let in_front = dot(front, sub(self.pose.position, triangle.corners[0])) > 0.0;
+        let in_front = dot(front, sub(there.pose.position, triangle.corners[0])) > 0.0;
         if flat && in_front {
             found.truncate(first);
             self.touch_front(number, found);
         } else if bent && in_front && found.is_empty() {
             let mut gap = f64::INFINITY;
-            body.touch_front(&self.pose, &triangle, self.reach, &mut |_, _, _, one| gap = gap.min(one));
+            B::touch_front(there, &triangle, self.reach, &mut |_, _, _, one| gap = gap.min(one));
             if gap.is_finite() && deep.is_none_or(|(least, _)| gap > least) {
                 *deep = Some((gap, number));
             }
@@ -151,18 +171,19 @@ impl<B: Touches> Query<'_, B> {
     /// Whether the body is out of reach along the line from the point of a triangle that is nearest to its middle, as most are of whose box it
     /// is within reach.
     fn is_beyond(&self, corners: [[f64; 3]; 3]) -> bool {
-        let nearest = nearest(corners, self.pose.position);
-        let way = sub(self.pose.position, nearest);
+        let position = self.there.pose.position;
+        let nearest = nearest(corners, position);
+        let way = sub(position, nearest);
         let length = dot(way, way).sqrt();
         let back = way.map(|x| -x);
         // In lengths of the way; of none nothing is beyond.
-        -self.body.height(&self.pose, back) - dot(way, nearest) > self.reach.max(0.0) * length
+        -B::height(&self.there, back) - dot(way, nearest) > self.reach.max(0.0) * length
     }
 
     /// Adds the points that the body has along the normal of a triangle.
     fn touch_front(&self, number: usize, found: &mut Vec<Found>) {
         let normal = self.surface.normal(number);
-        self.body.touch_front(&self.pose, &self.triangle(number), self.reach, &mut |own, point, _, gap| {
+        B::touch_front(&self.there, &self.triangle(number), self.reach, &mut |own, point, _, gap| {
             found.push(Found { feature: on_piece(number, own), point, normal, gap });
         });
     }

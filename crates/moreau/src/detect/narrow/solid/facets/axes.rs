@@ -3,7 +3,10 @@
 use super::nearest::between_lines;
 use super::{Point, Seen, feature};
 use crate::detect::narrow::vector::{cross, dot, sub};
-use crate::shape::solid::Faceted;
+use crate::shape::solid::{Edge, Faceted};
+
+/// Part of a gap that rounding may be, with room: what is skipped for it would not have been better.
+const NEARLY: f64 = 1e-9;
 
 /// Along which direction two bodies are farthest apart, or overlap least.
 pub(super) enum Axis {
@@ -15,31 +18,29 @@ pub(super) enum Axis {
     Edges(Point, bool),
 }
 
+/// Whether two bodies are farther apart than `reach` along the line between their centres, as most are that do not touch. `between` leads
+/// from the centre of the first to that of the second.
+pub(super) fn are_beyond<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, between: [f64; 3], reach: f64) -> bool {
+    let (end, start) = (support(a.vertices, between), -support(b.vertices, between.map(|x| -x)));
+    start - end > reach.max(0.0) * dot(between, between).sqrt()
+}
+
 /// The best axis and how far apart the bodies are along it; negative where they overlap. `None` where they are farther apart than `reach`,
 /// or nowhere. Of axes that are as good as each other faces come before edges, and those of the first body before those of the second.
-/// `between` leads from the centre of the first to that of the second.
 pub(super) fn best<A: Faceted, B: Faceted>(
     a: &Seen<'_, A>,
     b: &Seen<'_, B>,
-    between: [f64; 3],
-    sides: &mut Vec<i8>,
+    crossing: &mut Crossing,
     level: f64,
     reach: f64,
 ) -> Option<(Axis, f64)> {
-    // Most bodies that do not touch are told apart along the line of their centres.
-    let (end, start) = (support(a.vertices, between), -support(b.vertices, between.map(|x| -x)));
-    if start - end > reach.max(0.0) * dot(between, between).sqrt() {
-        return None;
-    }
-    // Not `>`: what is nowhere touches nothing.
-    let in_reach = |(face, apart): (usize, f64)| (apart <= reach).then_some((face, apart));
-    let (face_a, apart_a) = in_reach(farthest(a, b))?;
-    let (face_b, apart_b) = in_reach(farthest(b, a))?;
+    let (face_a, apart_a) = farthest(a, b, reach)?;
+    let (face_b, apart_b) = farthest(b, a, reach)?;
     let (mut axis, mut apart) = (Axis::FaceOfFirst(face_a), apart_a);
     if apart_b > apart + level {
         (axis, apart) = (Axis::FaceOfSecond(face_b), apart_b);
     }
-    if let Some((point, within)) = edges(a, b, sides)
+    if let Some((point, within)) = edges(a, b, apart, crossing)
         && point.gap > apart + level
     {
         (axis, apart) = (Axis::Edges(point, within), point.gap);
@@ -52,38 +53,65 @@ fn support(vertices: &[[f64; 3]], direction: [f64; 3]) -> f64 {
     vertices.iter().map(|&vertex| dot(direction, vertex)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The face of `body` beyond which `other` is farthest, and how far.
-fn farthest<A: Faceted, B: Faceted>(body: &Seen<'_, A>, other: &Seen<'_, B>) -> (usize, f64) {
+/// The face of `body` beyond which `other` is farthest, and how far; `None` if that is beyond `reach`, or nowhere.
+fn farthest<A: Faceted, B: Faceted>(body: &Seen<'_, A>, other: &Seen<'_, B>, reach: f64) -> Option<(usize, f64)> {
     let mut best = (0, f64::NEG_INFINITY);
     for (face, &normal) in body.normals.iter().enumerate() {
         let corner = body.corner(face, 0);
-        let nearest = other.vertices.iter().map(|&vertex| dot(normal, sub(vertex, corner))).fold(f64::INFINITY, f64::min);
-        if nearest > best.1 || nearest.is_nan() {
+        let height = |vertex: &[f64; 3]| dot(normal, sub(*vertex, corner));
+        let nearest = other.vertices.iter().map(height).fold(f64::INFINITY, |least, x| if least < x { least } else { x });
+        // Not `>`: what is nowhere touches nothing.
+        if !(nearest <= reach) {
+            return None;
+        }
+        if nearest > best.1 {
             best = (face, nearest);
         }
     }
-    best
+    Some(best)
 }
 
-/// The two edges that separate best, with the point between them. Their normals are a face of the Minkowski difference only where the
+/// The edges of a body whose arcs, from the normal of one of their faces to that of the other, cross the plane across an edge of another one,
+/// by their numbers: few of all.
+#[derive(Default)]
+pub(super) struct Crossing {
+    /// How far on one side of that plane the normals are, times the length of the edge.
+    sides: Vec<f64>,
+    edges: Vec<u16>,
+}
+
+impl Crossing {
+    fn find<F: Faceted>(&mut self, body: &Seen<'_, F>, along: [f64; 3]) {
+        self.sides.clear();
+        self.sides.extend(body.normals.iter().map(|&normal| dot(normal, along)));
+        self.edges.clear();
+        let across = |edge: &Edge| self.sides[usize::from(edge.faces[0])] * self.sides[usize::from(edge.faces[1])] < 0.0;
+        self.edges.extend((0..).zip(body.body.edges()).filter(|(_, edge)| across(edge)).map(|(j, _)| j));
+    }
+}
+
+/// The two edges that separate best and more than `floor`, with the point between them. Their normals are a face of the Minkowski difference only where the
 /// arcs between the normals of their faces cross (Gregorius 2013).
-fn edges<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, sides: &mut Vec<i8>) -> Option<(Point, bool)> {
+fn edges<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, floor: f64, crossing: &mut Crossing) -> Option<(Point, bool)> {
     let mut best: Option<(Point, bool)> = None;
+    let mut least = floor;
+    let mut line = None;
     for (i, edge_a) in a.body.edges().iter().enumerate() {
         let [p, q] = a.ends(edge_a);
         let [n, m] = edge_a.faces.map(|face| a.normals[usize::from(face)]);
         let along_a = sub(q, p);
-        // An arc of the second body crosses the plane of this edge's arc where its ends are on both sides: true of few.
-        sides.clear();
-        sides.extend(b.normals.iter().map(|&normal| side(dot(normal, along_a))));
-        for (j, edge_b) in b.body.edges().iter().enumerate() {
+        // Of two edges on one line, as a triangle has them, the same cross.
+        if line != Some([edge_a.ends[1], edge_a.ends[0]]) {
+            crossing.find(b, along_a);
+        }
+        line = Some(edge_a.ends);
+        for &j in &crossing.edges {
+            let j = usize::from(j);
+            let edge_b = &b.body.edges()[j];
             let [left, right] = edge_b.faces.map(usize::from);
-            if sides[left] * sides[right] >= 0 {
-                continue;
-            }
             let [r, s] = b.ends(edge_b);
             let along_b = sub(s, r);
-            if side(dot(n, along_b)) * side(dot(m, along_b)) >= 0 {
+            if dot(n, along_b) * dot(m, along_b) >= 0.0 {
                 continue;
             }
             // Of the two points where the planes meet on the sphere both arcs must go through the same one.
@@ -91,22 +119,21 @@ fn edges<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, sides: &mut V
             if dot(across, sum(n, m)) * dot(across, sum(b.normals[left], b.normals[right])) >= 0.0 {
                 continue;
             }
+            // Outward of the first body: the normals of both its faces are on that side. Most are not as far apart as the best, which takes
+            // no more than a square root to see.
+            let outward = 1.0_f64.copysign(dot(across, sum(n, m)));
+            if outward * dot(across, sub(r, p)) < (least - NEARLY * least.abs()) * dot(across, across).sqrt() {
+                continue;
+            }
             let Some((normal, at, within)) = between_lines([p, along_a], [r, along_b], across) else { continue };
-            // Outward of the first body: the normals of both its faces are on that side.
-            let sign = 1.0_f64.copysign(dot(normal, sum(n, m)));
-            let normal = normal.map(|x| sign * x);
+            let normal = normal.map(|x| outward * x);
             let point = Point { feature: feature(2, i, j), at, normal, gap: dot(normal, sub(r, p)) };
-            if best.is_none_or(|(best, _)| point.gap > best.gap) {
-                best = Some((point, within));
+            if point.gap > least {
+                (best, least) = (Some((point, within)), point.gap);
             }
         }
     }
     best
-}
-
-/// −1, 0 or 1.
-fn side(x: f64) -> i8 {
-    i8::from(x > 0.0) - i8::from(x < 0.0)
 }
 
 fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -1,33 +1,37 @@
 //! A ball and a triangle: one point, where the triangle is nearest to the centre.
 
-use super::super::Pose;
-use super::{Touches, Triangle};
+use super::{There, Touches, Triangle};
 use crate::detect::narrow::vector::{NO_DIRECTION, along, dot, sub};
 use crate::mesh::Aabb;
 use crate::shape::solid::{Ball, Faceted};
 
 impl Touches for Ball {
-    fn around(&self, pose: &Pose) -> Aabb {
-        Aabb::around([pose.position]).grown(self.radius)
+    fn around(There { body, pose, .. }: &There<'_, Self>) -> Aabb {
+        Aabb::around([pose.position]).grown(body.radius)
     }
 
     fn size(&self) -> f64 {
         self.radius
     }
 
-    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
-        dot(direction, pose.position) + self.radius * dot(direction, direction).sqrt()
+    fn height(There { body, pose, .. }: &There<'_, Self>, direction: [f64; 3]) -> f64 {
+        dot(direction, pose.position) + body.radius * dot(direction, direction).sqrt()
     }
 
-    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
+    fn touch(
+        There { body, pose, .. }: &There<'_, Self>,
+        triangle: &Triangle,
+        reach: f64,
+        emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+    ) {
         let between = sub(pose.position, nearest(triangle.corners, pose.position));
         let square = dot(between, between);
         let distance = square.sqrt();
         // A centre on the surface has the normal of the face.
         let normal = if square > NO_DIRECTION { between.map(|x| x / distance) } else { triangle.normal(Triangle::FRONT) };
-        let gap = distance - self.radius;
+        let gap = distance - body.radius;
         if gap <= reach {
-            emit(0, along(pose.position, -(self.radius + 0.5 * gap), normal), normal, gap);
+            emit(0, along(pose.position, -(body.radius + 0.5 * gap), normal), normal, gap);
         }
     }
 }

@@ -2,39 +2,49 @@
 
 use super::super::curved::{Convex, Hull, Segment, Touch, Tube, contacts_along, seen_from};
 use super::super::{Pose, capsule_facets, cylinder_facets};
-use super::{HERE, LEVEL, Touches, Triangle};
+use super::{HERE, LEVEL, There, Touches, Triangle};
 use crate::detect::narrow::vector::{along, dot};
 use crate::mesh::Aabb;
 use crate::shape::solid::{Capsule, Cylinder, Faceted};
 use crate::space::{Solid, Space};
 
 impl Touches for Capsule {
-    fn around(&self, pose: &Pose) -> Aabb {
-        let axis = Solid::rotate(pose.rotation, [0.0, 0.0, self.half]);
-        Aabb::around([1.0, -1.0].map(|end| along(pose.position, end, axis))).grown(self.radius)
+    fn around(There { body, pose, .. }: &There<'_, Self>) -> Aabb {
+        let axis = Solid::rotate(pose.rotation, [0.0, 0.0, body.half]);
+        Aabb::around([1.0, -1.0].map(|end| along(pose.position, end, axis))).grown(body.radius)
     }
 
     fn size(&self) -> f64 {
         self.half + self.radius
     }
 
-    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
-        let axis = Solid::rotate(pose.rotation, [0.0, 0.0, self.half]);
-        dot(direction, pose.position) + dot(direction, axis).abs() + self.radius * dot(direction, direction).sqrt()
+    fn height(There { body, pose, .. }: &There<'_, Self>, direction: [f64; 3]) -> f64 {
+        let axis = Solid::rotate(pose.rotation, [0.0, 0.0, body.half]);
+        dot(direction, pose.position) + dot(direction, axis).abs() + body.radius * dot(direction, direction).sqrt()
     }
 
-    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
-        capsule_facets::collide((self, pose), (triangle, &HERE), reach, &mut turned(emit));
+    fn touch(
+        There { body, pose, .. }: &There<'_, Self>,
+        triangle: &Triangle,
+        reach: f64,
+        emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+    ) {
+        capsule_facets::collide((*body, pose), (triangle, &HERE), reach, &mut turned(emit));
     }
 
-    fn touch_front(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
-        front(self, (&Hull::own(&Segment { half: self.half }), self.radius), pose, triangle, reach, emit);
+    fn touch_front(
+        There { body, pose, .. }: &There<'_, Self>,
+        triangle: &Triangle,
+        reach: f64,
+        emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+    ) {
+        front(*body, (&Hull::own(&Segment { half: body.half }), body.radius), pose, triangle, reach, emit);
     }
 }
 
 impl Touches for Cylinder {
-    fn around(&self, pose: &Pose) -> Aabb {
-        let tube = Tube::new(self, pose);
+    fn around(There { body, pose, .. }: &There<'_, Self>) -> Aabb {
+        let tube = Tube::new(body, pose);
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let high = [x, y, z].map(|axis| tube.height(axis));
         let low = [x, y, z].map(|axis| -tube.height(axis.map(|k| -k)));
@@ -45,16 +55,26 @@ impl Touches for Cylinder {
         self.half + self.radius
     }
 
-    fn height(&self, pose: &Pose, direction: [f64; 3]) -> f64 {
-        Convex::height(&Tube::new(self, pose), direction)
+    fn height(There { body, pose, .. }: &There<'_, Self>, direction: [f64; 3]) -> f64 {
+        Convex::height(&Tube::new(body, pose), direction)
     }
 
-    fn touch(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
-        cylinder_facets::collide((self, pose), (triangle, &HERE), reach, &mut turned(emit));
+    fn touch(
+        There { body, pose, .. }: &There<'_, Self>,
+        triangle: &Triangle,
+        reach: f64,
+        emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+    ) {
+        cylinder_facets::collide((*body, pose), (triangle, &HERE), reach, &mut turned(emit));
     }
 
-    fn touch_front(&self, pose: &Pose, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
-        front(self, (&Tube::own(self), 0.0), pose, triangle, reach, emit);
+    fn touch_front(
+        There { body, pose, .. }: &There<'_, Self>,
+        triangle: &Triangle,
+        reach: f64,
+        emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
+    ) {
+        front(*body, (&Tube::own(body), 0.0), pose, triangle, reach, emit);
     }
 }
 

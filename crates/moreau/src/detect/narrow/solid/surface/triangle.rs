@@ -3,6 +3,7 @@
 //! The sides are as wide as their edges and have no height. They are there for the normals: those of the surface at an edge of the
 //! triangle turn from the front's over the side's to the back's.
 
+use super::super::facets::Seen;
 use crate::detect::narrow::vector::{cross, dot, sub};
 use crate::shape::solid::{Edge, Faceted};
 
@@ -31,6 +32,10 @@ impl Triangle {
     pub(super) fn radius(&self) -> f64 {
         self.radius
     }
+
+    pub(super) fn seen(&self) -> Seen<'_, Self> {
+        Seen { body: self, vertices: &self.corners, normals: &self.normals }
+    }
 }
 
 const FACES: [&[u16]; 5] = [&[0, 1, 2], &[0, 2, 1], &[0, 1], &[1, 2], &[2, 0]];
@@ -39,9 +44,9 @@ const fn edge(start: u16, end: u16, left: u16, right: u16) -> Edge {
     Edge { ends: [start, end], faces: [left, right] }
 }
 
-/// Each edge between the front and its side, and between that and the back.
+/// Each edge between the front and its side, and after it that between the side and the back.
 const EDGES: [Edge; 6] =
-    [edge(0, 1, 0, 2), edge(1, 2, 0, 3), edge(2, 0, 0, 4), edge(1, 0, 1, 2), edge(2, 1, 1, 3), edge(0, 2, 1, 4)];
+    [edge(0, 1, 0, 2), edge(1, 0, 1, 2), edge(1, 2, 0, 3), edge(2, 1, 1, 3), edge(2, 0, 0, 4), edge(0, 2, 1, 4)];
 
 impl Faceted for Triangle {
     fn vertices(&self) -> usize {
