@@ -17,6 +17,7 @@ pub mod scene;
 pub mod shape;
 pub mod space;
 pub mod step;
+mod symmetric;
 pub mod world;
 
 pub use moreau_solve as solve;
