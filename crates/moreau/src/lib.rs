@@ -9,6 +9,7 @@ pub mod events;
 pub mod io;
 pub mod joints;
 pub mod laws;
+pub mod measure;
 pub mod mesh;
 pub mod observe;
 mod random;
