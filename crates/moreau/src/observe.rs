@@ -5,11 +5,14 @@
 mod background;
 mod failed;
 pub mod interfaces;
+mod measures;
 mod steps;
 mod summary;
+mod table;
 mod vtk;
 
 pub use failed::FailedProblems;
+pub use measures::MeasuresCsv;
 pub use steps::StepsCsv;
 pub use summary::Summary;
 pub use vtk::VtkOutput;
@@ -23,6 +26,7 @@ use std::path::PathBuf;
 /// The table of outputs.
 pub const OUTPUTS: &[Row] = &[
     Row { name: "steps", about: "steps.csv: a row a step with sweeps, residuals, penetration, energies, seconds" },
+    Row { name: "measures", about: "measures.csv: coordination, solid fraction, fabric, stress, forces; as often as frames" },
     Row { name: "vtk", about: "vtk/: bodies, contacts, shapes, interfaces for ParaView, compressed, with .pvd collections" },
 ];
 

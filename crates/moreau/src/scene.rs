@@ -271,8 +271,8 @@ impl Scene {
         start::Origin::of(self, index).map_or_else(|| format!("body {index}"), |origin| origin.label(self))
     }
 
-    /// Steps between two VTK frames: as given, else a hundredth of the run; 0 for no frames.
-    pub fn vtk_every(&self) -> u64 {
+    /// Steps between two frames for ParaView, or two rows of measures: as given, else a hundredth of the run; 0 for none.
+    pub fn frames_every(&self) -> u64 {
         self.output.every.unwrap_or((self.time.steps / 100).max(1))
     }
 

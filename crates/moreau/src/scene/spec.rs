@@ -277,7 +277,7 @@ impl Container {
 pub struct Output {
     /// The folder; where it is not given, the program chooses.
     pub folder: Option<String>,
-    /// Steps between two frames; 0 for none. Default: a hundredth of all steps.
+    /// Steps between two frames, and between two rows of measures; 0 for none. Default: a hundredth of all steps.
     pub every: Option<u64>,
     /// What is written.
     pub kinds: Vec<OutputKind>,
@@ -297,6 +297,8 @@ pub enum OutputKind {
     Vtk,
     /// A table with a line for each step: sweeps, residuals, energies.
     Steps,
+    /// A table of granular measures: coordination, solid fraction, fabric, stress, forces.
+    Measures,
 }
 
 /// What is asked of the first configuration.

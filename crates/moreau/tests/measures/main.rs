@@ -2,6 +2,7 @@
 
 mod lattices;
 mod loads;
+mod rows;
 mod volumes;
 
 use moreau::scene::{AnyWorld, Scene};
