@@ -2,7 +2,10 @@
 //! those of boxes inside that repeat, and fabrics are of blocks with the symmetry of the lattice, or of such a box.
 
 use super::*;
-use moreau::measure::{Cell, Touch, branch_fabric, coordination, deviator, fabric, solid_fraction, solid_fractions};
+use moreau::detect::Detector;
+use moreau::measure::{
+    Cell, Grid, Touch, branch_fabric, coordination, deviator, extent, fabric, solid_fraction, solid_fractions,
+};
 use std::f64::consts::PI;
 
 const CLOSED: Touch = Touch::Closed(1e-9);
@@ -22,8 +25,13 @@ fn block(side: usize) -> impl Iterator<Item = [usize; 3]> {
 fn a_simple_cubic_lattice_has_six_neighbours_and_fills_pi_sixths() {
     let bodies: Vec<String> = block(5).map(|at| ball(at.map(|x| x as f64), 0.5)).collect();
     let mut world = solid([0.0; 3], &bodies);
+    let mut touching = Vec::new();
+    let (shapes, poses) = (&world.bodies.shape, &world.bodies.pose);
+    Detector::new().detect::<Solid, 6>(shapes, poses, &[1e-9; 125], |_| false, &mut touching);
     let work = stepped(&mut world);
     let contacts = work.contacts();
+    let closed: Vec<_> = CLOSED.among(contacts).map(|c| c.contact.key).collect();
+    assert_eq!(touching.iter().map(|c| c.key).collect::<Vec<_>>(), closed);
     let found = coordination(&world, contacts, CLOSED);
     let at = |i: usize| world.bodies.pose[i].position;
     assert_eq!(inside(&found.of_body, |i| at(i).iter().all(|x| (0.5..3.5).contains(x))), 6);
@@ -37,7 +45,7 @@ fn a_simple_cubic_lattice_has_six_neighbours_and_fills_pi_sixths() {
         assert!((solid_fraction(&world, &cell) - PI / 6.0).abs() < 1e-13);
     }
     let region = Cell::new([0.5; 3], [3.5; 3]).unwrap();
-    let grid = moreau::measure::Grid::new(region, [3, 3, 3]).unwrap();
+    let grid = Grid::new(region, [3, 3, 3]).unwrap();
     assert!(solid_fractions(&world, &grid).iter().all(|fraction| (fraction - PI / 6.0).abs() < 1e-13));
 }
 
@@ -94,7 +102,7 @@ fn a_world_of_nothing_has_measures_of_zero() {
     let world = plane([0.0; 2], &["shape.half_plane = { normal = [0.0, 1.0] }\nposition = [0.0, 0.0]".to_owned()]);
     let found = coordination(&world, &[], CLOSED);
     assert_eq!((found.mean, found.without_rattlers, found.of_body), (0.0, 0.0, vec![0]));
-    assert_eq!(moreau::measure::extent(&world.bodies), None);
+    assert_eq!(extent(&world.bodies), None);
     assert_eq!(fabric::<2>([]), [[0.0; 2]; 2]);
     assert_eq!(solid_fraction(&world, &Cell::new([-1.0; 2], [1.0; 2]).unwrap()), 0.0);
 }

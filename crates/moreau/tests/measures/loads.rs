@@ -94,6 +94,45 @@ fn equal_forces_on_all_sides_make_a_pressure() {
     compressed(plane([0.0; 2], &disks.collect::<Vec<_>>()));
 }
 
+/// What is summed by bodies and by branches is the same, with friction, walls and bodies that are not round.
+#[test]
+fn the_stress_of_a_heap_is_that_of_its_bodies() {
+    let wall = |x: f64, n: f64| format!("shape.half_plane = {{ normal = [{n:?}, 0.0] }}\nposition = [{x:?}, 0.0]");
+    let stone = "shape.box = { size = [0.9, 0.6] }\nposition = [1.4, 2.2]\norientation = 0.02".to_owned();
+    let disks = [[0.5, 0.5], [1.5, 0.5], [2.5, 0.5], [1.0, 1.37], [2.0, 1.37]].map(|at| disk(at, 0.5));
+    let bodies: Vec<String> = [floor(2), wall(0.0, 1.0), wall(3.0, -1.0)].into_iter().chain(disks).chain([stone]).collect();
+    let mut world = plane([0.0, -10.0], &bodies);
+    let mut work = Workspace::default();
+    for _ in 0..150 {
+        step(&mut world, &mut work).unwrap();
+    }
+    assert!(normal_forces(work.contacts(), H).len() > 8);
+    let of_bodies = stress_of_bodies(&world, work.contacts(), H);
+    let of_all: [[f64; 2]; 2] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| (0..of_bodies.len()).map(|b| of_bodies[b][i][j] * free_volume(&world, b)).sum())
+    });
+    let region = Cell::new([-1.0; 2], [4.0; 2]).unwrap();
+    let in_region = stress_in(&world, work.contacts(), H, &region).map(|row| row.map(|x| x * region.volume()));
+    close(&in_region, &of_all, 1e-9 * of_all[1][1]);
+}
+
+fn free_volume(world: &World<Plane, 2, 3>, i: usize) -> f64 {
+    if world.bodies.is_free(i) { volume(&world.bodies, i) } else { 0.0 }
+}
+
+#[test]
+fn principal_values_come_in_order_whatever_their_signs() {
+    let half = 0.5_f64.sqrt();
+    let (values, axes) = principal(&[[0.0, 2.0], [0.0, 0.0]]);
+    assert!((values[0] - 1.0).abs() < 1e-15 && (values[1] + 1.0).abs() < 1e-15);
+    assert!(axes.as_flattened().iter().all(|x| (x.abs() - half).abs() < 1e-15) && axes[0][0] * axes[0][1] > 0.0);
+    let stress = [[-3.0, 0.0, 1.0], [0.0, -4.0, 0.0], [1.0, 0.0, -3.0]];
+    let (values, _) = principal(&stress);
+    assert!(values.iter().zip([-2.0, -4.0, -4.0]).all(|(one, other)| (one - other).abs() < 1e-14), "{values:?}");
+    assert!((deviator(&stress) - 2.0).abs() < 1e-14 && (mean_stress(&stress) + 10.0 / 3.0).abs() < 1e-15);
+    assert_eq!(principal(&[[0.0; 3]; 3]).0, [0.0; 3]);
+}
+
 /// Balls, because forces of a face are not unique: points of a block that stands may pull against each other up to the limit.
 #[test]
 fn a_ball_that_slides_is_counted_and_one_that_rests_is_not() {
