@@ -10,8 +10,8 @@ use crate::world::World;
 pub struct Coordination {
     /// How many bodies each body touches, walls among them; of all bodies, in their order.
     pub of_body: Vec<u32>,
-    /// Whether a body is a rattler: free, with fewer neighbours than there are dimensions when other rattlers are not counted. A ball with so
-    /// few can be at rest, as in a column, but not against a push from anywhere.
+    /// Whether a body is a rattler: free, with fewer contact points than there are dimensions when those with other rattlers are not counted.
+    /// A ball with so few neighbours can be at rest, as in a column, but not against a push from anywhere; one face holds a block.
     pub rattler: Vec<bool>,
     /// Mean over free bodies; zero where there are none.
     pub mean: f64,
@@ -26,10 +26,11 @@ pub fn coordination<S: Space<D, N>, const D: usize, const N: usize>(
     touch: Touch,
 ) -> Coordination {
     let bodies = &world.bodies;
-    let mut beside: Vec<[u32; 2]> = touch.pairs(contacts).flat_map(|[a, b]| [[a, b], [b, a]]).collect();
+    let both_ways = |([a, b], points): ([u32; 2], usize)| [([a, b], points), ([b, a], points)];
+    let mut beside: Vec<_> = touch.pairs(contacts).flat_map(both_ways).collect();
     beside.sort_unstable();
     let mut of_body = vec![0; bodies.len()];
-    beside.iter().for_each(|pair| of_body[pair[0] as usize] += 1);
+    beside.iter().for_each(|(pair, _)| of_body[pair[0] as usize] += 1);
     let free: Vec<bool> = (0..bodies.len()).map(|i| bodies.is_free(i)).collect();
     let (rattler, left) = rattlers::<D>(&free, &beside, &of_body);
     let mean = |counts: &[u32], takes: &dyn Fn(usize) -> bool| {
@@ -45,16 +46,20 @@ pub fn coordination<S: Space<D, N>, const D: usize, const N: usize>(
 }
 
 /// Who is a rattler, and how many neighbours each body has that are none. A rattler that is taken away may make its neighbours rattlers.
-fn rattlers<const D: usize>(free: &[bool], beside: &[[u32; 2]], of_body: &[u32]) -> (Vec<bool>, Vec<u32>) {
-    let mut left = of_body.to_vec();
-    let loose = |i: usize, left: &[u32]| free[i] && (left[i] as usize) < D;
-    let mut rattler: Vec<bool> = (0..free.len()).map(|i| loose(i, &left)).collect();
+/// Neighbours, with their points, are sorted by body.
+fn rattlers<const D: usize>(free: &[bool], beside: &[([u32; 2], usize)], of_body: &[u32]) -> (Vec<bool>, Vec<u32>) {
+    let (mut left, mut points) = (of_body.to_vec(), vec![0; free.len()]);
+    beside.iter().for_each(|(pair, count)| points[pair[0] as usize] += count);
+    let loose = |i: usize, points: &[usize]| free[i] && points[i] < D;
+    let mut rattler: Vec<bool> = (0..free.len()).map(|i| loose(i, &points)).collect();
     let mut taken: Vec<usize> = (0..free.len()).filter(|&i| rattler[i]).collect();
     while let Some(body) = taken.pop() {
-        let first = beside.partition_point(|pair| (pair[0] as usize) < body);
-        for other in beside[first..].iter().take_while(|pair| pair[0] as usize == body).map(|pair| pair[1] as usize) {
+        let first = beside.partition_point(|(pair, _)| (pair[0] as usize) < body);
+        for &([_, other], count) in beside[first..].iter().take_while(|(pair, _)| pair[0] as usize == body) {
+            let other = other as usize;
             left[other] -= 1;
-            if !rattler[other] && loose(other, &left) {
+            points[other] -= count;
+            if !rattler[other] && loose(other, &points) {
                 rattler[other] = true;
                 taken.push(other);
             }

@@ -25,10 +25,11 @@ impl Touch {
         contacts.iter().filter(move |c| self.holds(c))
     }
 
-    /// The pairs of bodies with a contact that counts, each once. Contacts are sorted by key.
-    pub fn pairs<const D: usize>(self, contacts: &[Localised<D>]) -> impl Iterator<Item = [u32; 2]> {
+    /// The pairs of bodies with a contact that counts, each once, and how many points of theirs count. Contacts are sorted by key.
+    pub fn pairs<const D: usize>(self, contacts: &[Localised<D>]) -> impl Iterator<Item = ([u32; 2], usize)> {
         let pair = |c: &Localised<D>| [c.contact.key.a, c.contact.key.b];
         let of_pair = contacts.chunk_by(move |one, next| pair(one) == pair(next));
-        of_pair.filter(move |contacts| contacts.iter().any(|c| self.holds(c))).map(move |contacts| pair(&contacts[0]))
+        let counted = of_pair.map(move |contacts| (pair(&contacts[0]), contacts.iter().filter(|c| self.holds(c)).count()));
+        counted.filter(|&(_, points)| points > 0)
     }
 }

@@ -97,6 +97,18 @@ fn rattlers_are_taken_away_until_there_are_none() {
     assert!((found.mean - 11.0 / 6.0).abs() < 1e-15 && (found.without_rattlers - 8.0 / 3.0).abs() < 1e-15);
 }
 
+/// Two blocks on each other have one or two neighbours, but faces hold them.
+#[test]
+fn blocks_on_their_faces_are_no_rattlers() {
+    let floor = "shape.half_space = { normal = [0.0, 0.0, 1.0] }\nposition = [0.0, 0.0, 0.0]".to_owned();
+    let block = |z: f64| format!("shape.box = {{ size = [1.0, 1.0, 1.0] }}\nposition = [0.0, 0.0, {z:?}]");
+    let mut world = solid([0.0, 0.0, -10.0], &[floor, block(0.5), block(1.5)]);
+    let work = stepped(&mut world);
+    let found = coordination(&world, work.contacts(), Touch::Loaded);
+    assert_eq!((found.of_body, found.rattler), (vec![1, 2, 1], vec![false; 3]));
+    assert_eq!((found.mean, found.without_rattlers), (1.5, 1.5));
+}
+
 #[test]
 fn a_world_of_nothing_has_measures_of_zero() {
     let world = plane([0.0; 2], &["shape.half_plane = { normal = [0.0, 1.0] }\nposition = [0.0, 0.0]".to_owned()]);
