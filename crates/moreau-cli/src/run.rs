@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, say, writable, write_whole};
 use crate::{progress, scene};
-use moreau::observe::{FailedProblems, Observer, OutputError, StepsCsv, TrajectoryOutput, VtkOutput};
+use moreau::observe::{FailedProblems, MeasuresCsv, Observer, OutputError, StepsCsv, TrajectoryOutput, VtkOutput};
 use moreau::run::{End, Outcome, Unwritten};
 use moreau::scene::{AnyWorld, OutputKind, Scene};
 use moreau::space::Space;
@@ -58,7 +58,7 @@ fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
         Failure::file(format!("cannot write into {}: {reason}; choose another folder with --out", path.display()))
     };
     std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
-    let files = ["scene.toml", "summary.json", "steps.csv", "trajectory.h5"].map(|file| folder.join(file));
+    let files = ["scene.toml", "summary.json", "steps.csv", "measures.csv", "trajectory.h5"].map(|file| folder.join(file));
     for file in &files {
         writable(file)?;
     }
@@ -99,11 +99,15 @@ fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
     if scene.output.kinds.contains(&OutputKind::Steps) {
         observers.push(Box::new(StepsCsv::create(&folder.join("steps.csv"))?));
     }
-    if scene.output.kinds.contains(&OutputKind::Vtk) && scene.frame_every() > 0 {
-        observers.push(Box::new(VtkOutput::create(&folder.join("vtk"), scene.frame_every())?));
+    let every = scene.frames_every();
+    if scene.output.kinds.contains(&OutputKind::Measures) && every > 0 {
+        observers.push(Box::new(MeasuresCsv::create(&folder.join("measures.csv"), every, D)?));
+    }
+    if scene.output.kinds.contains(&OutputKind::Vtk) && every > 0 {
+        observers.push(Box::new(VtkOutput::create(&folder.join("vtk"), every)?));
     }
     if scene.output.kinds.contains(&OutputKind::Trajectory) {
-        let settings = (scene.title.as_deref().unwrap_or_default(), scene.frame_every(), scene.output.precision);
+        let settings = (scene.title.as_deref().unwrap_or_default(), every, scene.output.precision);
         observers.push(Box::new(TrajectoryOutput::create(&folder.join("trajectory.h5"), world, settings)?));
     }
     if scene.solver.on_failure == OnFailure::Dump {

@@ -37,7 +37,7 @@ fn tables_have_a_row_for_each_name() {
             ],
         ),
         ("builders", &["arch", "wall", "dome", "ballast"]),
-        ("outputs", &["vtk", "steps"]),
+        ("outputs", &["vtk", "steps", "measures"]),
     ];
     for (table, names) in known {
         let rows = listed(&Place::new(), table);

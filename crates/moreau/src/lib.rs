@@ -9,6 +9,7 @@ pub mod events;
 pub mod io;
 pub mod joints;
 pub mod laws;
+pub mod measure;
 pub mod mesh;
 pub mod observe;
 mod random;
@@ -17,6 +18,7 @@ pub mod scene;
 pub mod shape;
 pub mod space;
 pub mod step;
+mod symmetric;
 pub mod trajectory;
 pub mod world;
 

@@ -5,13 +5,16 @@
 mod background;
 mod failed;
 pub mod interfaces;
+mod measures;
 mod status;
 mod steps;
 mod summary;
+mod table;
 mod trajectory;
 mod vtk;
 
 pub use failed::FailedProblems;
+pub use measures::MeasuresCsv;
 pub(crate) use steps::numbers;
 pub use steps::{COLUMNS, StepsCsv};
 pub use summary::Summary;
@@ -31,6 +34,7 @@ pub const OUTPUTS: &[Row] = &[
         name: "trajectory",
         about: "trajectory.h5: bodies and contacts of each frame and the records of steps, for moreau's own views and for Python",
     },
+    Row { name: "measures", about: "measures.csv: coordination, solid fraction, fabric, stress, forces; as often as frames" },
     Row { name: "vtk", about: "vtk/: bodies, contacts, shapes, interfaces for ParaView, compressed, with .pvd collections" },
 ];
 

@@ -271,8 +271,8 @@ impl Scene {
         start::Origin::of(self, index).map_or_else(|| format!("body {index}"), |origin| origin.label(self))
     }
 
-    /// Steps between two frames: as given, else a hundredth of the run; 0 for no frames.
-    pub fn frame_every(&self) -> u64 {
+    /// Steps between two frames or two rows of measures: as given, else a hundredth of the run; 0 for none.
+    pub fn frames_every(&self) -> u64 {
         self.output.every.unwrap_or((self.time.steps / 100).max(1))
     }
 

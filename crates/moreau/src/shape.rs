@@ -43,6 +43,10 @@ macro_rules! shapes {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::is_convex(shape),)+ }
             }
 
+            fn parts(&self) -> Vec<(Self, crate::space::Pose<<$Space as Space<$D, $N>>::Rotation, $D>)> {
+                match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::parts(shape),)+ }
+            }
+
             fn polygons(&self) -> Polygons<$D> {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::polygons(shape),)+ }
             }
@@ -105,6 +109,11 @@ pub trait Figure<S: Space<D, N>, const D: usize, const N: usize> {
         true
     }
 
+    /// See [`Shape::parts`].
+    fn parts(&self) -> Vec<(S::Shape, Pose<S::Rotation, D>)> {
+        Vec::new()
+    }
+
     /// See [`Shape::polygons`].
     fn polygons(&self) -> Polygons<D> {
         Polygons::default()
@@ -131,6 +140,9 @@ where
 
     /// Whether the straight way between any two of its points lies inside; of a compound it is not asked.
     fn is_convex(&self) -> bool;
+
+    /// The shapes that it is made of, each in its place in the body's frame; none where it is of one piece.
+    fn parts(&self) -> Vec<(Self, Pose<S::Rotation, D>)>;
 
     /// Its boundary as polygons, to be drawn: those of a bounded shape enclose it, or nearly where it is curved; an unbounded one may have
     /// none.

@@ -120,7 +120,7 @@ fn bodies_of_space_arrive_as_they_are_written() {
     let scene = Scene::parse(&text, "space.toml").unwrap();
     let AnyWorld::Solid(world) = scene.build(u64::MAX).unwrap() else { panic!("a scene of space") };
     let bodies = &world.bodies;
-    assert_eq!((bodies.len(), world.gravity, scene.frame_every()), (7, [0.0, 0.0, -1.0], 10));
+    assert_eq!((bodies.len(), world.gravity, scene.frames_every()), (7, [0.0, 0.0, -1.0], 10));
     assert_eq!(bodies.mass[0][0], 18.0);
     // The block's own x axis points along the world's y: a spin about the world's x is one about its −y.
     assert_eq!(Solid::rotate(bodies.pose[0].rotation, [1.0, 0.0, 0.0]).map(|x| (x * 1e12).round() / 1e12), [0.0, 1.0, 0.0]);

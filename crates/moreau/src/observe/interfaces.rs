@@ -56,9 +56,9 @@ impl<const D: usize> Interface<D> {
         let normal = direction(&sum(contacts, |c, k| c.impulse[0] * c.contact.normal[k]))
             .or_else(|| direction(&sum(contacts, |c, k| c.contact.normal[k])))
             .unwrap_or(contacts[0].contact.normal);
-        let force = sum(contacts, |c, k| in_world(c)[k] / h);
+        let force = sum(contacts, |c, k| c.impulse_in_world()[k] / h);
         let moment = contacts.iter().fold([0.0; 3], |all, c| {
-            let one = cross(&sub(&c.contact.point, &mean), &in_world(c));
+            let one = cross(&sub(&c.contact.point, &mean), &c.impulse_in_world());
             std::array::from_fn(|k| all[k] + one[k] / h)
         });
         let normal_force = dot(&force, &normal);
@@ -110,11 +110,6 @@ pub fn thrust<S: Space<D, N>, const D: usize, const N: usize>(
         }
     }
     joined
-}
-
-/// The impulse on the second body in the world, N·s.
-pub(super) fn in_world<const D: usize>(c: &Localised<D>) -> [f64; D] {
-    std::array::from_fn(|k| (0..D).map(|i| c.frame[i][k] * c.impulse[i]).sum())
 }
 
 /// The coefficient of friction; none where the law has no friction, or no limit of it.

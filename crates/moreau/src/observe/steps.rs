@@ -1,12 +1,11 @@
 //! `steps.csv`: a row a step.
 
+use super::table::Table;
 use super::{Frame, Observer, OutputError};
 use crate::space::Space;
 use crate::step::StepRecord;
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{BufWriter, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The columns, in order.
 pub const COLUMNS: [&str; 22] = [
@@ -71,10 +70,7 @@ pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
 /// Writes the records of a run.
 #[derive(Debug)]
 pub struct StepsCsv {
-    path: PathBuf,
-    file: BufWriter<File>,
-    /// The row at hand.
-    row: String,
+    table: Table,
 }
 
 impl StepsCsv {
@@ -83,15 +79,7 @@ impl StepsCsv {
     /// # Errors
     /// Where it cannot be created.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
-        let file = File::create(path).map_err(OutputError::io(path))?;
-        let mut steps = Self { path: path.to_owned(), file: BufWriter::new(file), row: COLUMNS.join(",") + "\n" };
-        steps.put()?;
-        Ok(steps)
-    }
-
-    /// Writes the row at hand; the file has it when some more have come, or at the end.
-    fn put(&mut self) -> Result<(), OutputError> {
-        self.file.write_all(self.row.as_bytes()).map_err(OutputError::io(&self.path))
+        Ok(Self { table: Table::create(path, &COLUMNS.join(","))? })
     }
 }
 
@@ -114,11 +102,11 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Observer<S, D, N> for Steps
     fn see(&mut self, frame: &Frame<'_, S, D, N>) -> Result<(), OutputError> {
         let Some(record) = frame.record else { return Ok(()) };
         // A string takes all that is formatted.
-        let _ = format(&mut self.row, record);
-        self.put()
+        let _ = format(&mut self.table.row, record);
+        self.table.put()
     }
 
     fn finish(&mut self) -> Result<(), OutputError> {
-        self.file.flush().map_err(OutputError::io(&self.path))
+        self.table.finish()
     }
 }

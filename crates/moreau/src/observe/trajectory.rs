@@ -3,7 +3,6 @@
 //! A frame is copied out of the world and handed to a thread that compresses and writes it while the run goes on.
 
 use super::background::{self, Background};
-use super::interfaces::in_world;
 use super::status::status;
 use super::{Frame, Observer, OutputError, numbers};
 use crate::shape::Shape;
@@ -108,7 +107,7 @@ fn take<S: Space<D, N>, const D: usize, const N: usize>(to: &mut Batch, frame: &
         let Localised { contact: c, .. } = contact;
         point.extend(c.point);
         normal.extend(c.normal);
-        impulse.extend(in_world(contact));
+        impulse.extend(contact.impulse_in_world());
         gap.push(c.gap);
         to.pairs[0].push(c.key.a);
         to.pairs[1].push(c.key.b);

@@ -278,7 +278,7 @@ impl Container {
 pub struct Output {
     /// The folder; where it is not given, the program chooses.
     pub folder: Option<String>,
-    /// Steps between two frames; 0 for none. Default: a hundredth of all steps.
+    /// Steps between two frames, and between two rows of measures; 0 for none. Default: a hundredth of all steps.
     pub every: Option<u64>,
     /// What is written.
     pub kinds: Vec<OutputKind>,
@@ -307,6 +307,8 @@ pub enum OutputKind {
     Steps,
     /// One file with bodies and contacts of every frame and the table of steps, for moreau's own views and for Python.
     Trajectory,
+    /// A table of granular measures: coordination, solid fraction, fabric, stress, forces.
+    Measures,
 }
 
 /// What is asked of the first configuration.

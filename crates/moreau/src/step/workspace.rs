@@ -47,6 +47,11 @@ impl<const D: usize> Localised<D> {
         Self { contact, frame, form, before, after, driven, impulse: [0.0; D], acts }
     }
 
+    /// The impulse on body `b` in the world, N·s.
+    pub fn impulse_in_world(&self) -> [f64; D] {
+        std::array::from_fn(|k| (0..D).map(|i| self.frame[i][k] * self.impulse[i]).sum())
+    }
+
     /// Whether its law acts in this step.
     pub(super) fn acts(&self) -> bool {
         self.acts

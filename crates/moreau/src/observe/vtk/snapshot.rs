@@ -4,7 +4,6 @@ use super::interfaces::Interfaces;
 use super::shapes::{Drawing, Shapes};
 use crate::io::vtk::{Array, PolyData};
 use crate::observe::Frame;
-use crate::observe::interfaces::in_world;
 use crate::observe::status::status;
 use crate::shape::Shape;
 use crate::space::Space;
@@ -88,7 +87,7 @@ impl Snapshot {
         let to = &mut self.contacts;
         refill(&mut to.points, contacts.iter().map(|c| space_vector(&c.contact.point)));
         refill(&mut to.normal, contacts.iter().map(|c| space_vector(&c.contact.normal)));
-        refill(&mut to.impulse, contacts.iter().map(|c| space_vector(&in_world(c))));
+        refill(&mut to.impulse, contacts.iter().map(|c| space_vector(&c.impulse_in_world())));
         refill(&mut to.gap, contacts.iter().map(|c| c.contact.gap));
         refill(&mut to.normal_impulse, contacts.iter().map(|c| c.impulse[0]));
         refill(&mut to.status, contacts.iter().map(|c| status(c) as i32));

@@ -90,6 +90,10 @@ impl Figure<Plane, 2, 3> for Compound {
         Some(self.bounding_radius)
     }
 
+    fn parts(&self) -> Vec<(PlaneShape, Pose<[f64; 2], 2>)> {
+        self.parts.iter().map(|part| (part.shape.clone(), part.pose)).collect()
+    }
+
     fn polygons(&self) -> Polygons<2> {
         let mut all = Polygons::default();
         self.parts.iter().for_each(|part| all.add::<Plane, 3>(&part.shape.polygons(), &part.pose));

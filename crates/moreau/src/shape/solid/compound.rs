@@ -88,6 +88,10 @@ impl Figure<Solid, 3, 6> for Compound {
         false
     }
 
+    fn parts(&self) -> Vec<(SolidShape, Pose<DQuat, 3>)> {
+        self.parts.iter().map(|part| (part.shape.clone(), part.pose)).collect()
+    }
+
     /// Those of all parts, also where they lie inside others.
     fn polygons(&self) -> Polygons<3> {
         let mut all = Polygons::default();

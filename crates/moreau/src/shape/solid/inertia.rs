@@ -1,6 +1,7 @@
 //! Volume, centre of mass and inertia of what a closed surface of triangles holds, exactly, and principal axes; theory (66).
 
 use crate::space::Pose;
+use crate::symmetric::diagonal;
 use glam::{DMat3, DQuat, DVec3};
 
 /// The first moments of a body of density 1.
@@ -59,39 +60,12 @@ impl Moments {
     pub fn principal(&self) -> ([f64; 3], DQuat) {
         let (s, axes) = diagonal(self.second);
         let total: f64 = s.iter().sum();
-        (s.map(|s| total - s), DQuat::from_mat3(&axes).normalize())
+        (s.map(|s| total - s), DQuat::from_mat3(&DMat3::from_cols_array_2d(&axes)).normalize())
     }
 }
 
 fn outer(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
-}
-
-/// Eigenvalues and the right-handed eigenvectors (columns) of a symmetric matrix, by Jacobi's rotations.
-fn diagonal(mut s: [[f64; 3]; 3]) -> ([f64; 3], DMat3) {
-    /// Of the trace: what is smaller is rounding. Bodies with equal moments would be turned by it.
-    const NONE: f64 = 1e-13;
-    let smallest = NONE * (s[0][0] + s[1][1] + s[2][2]);
-    let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    // Each round squares the error; six are more than enough.
-    for (p, q) in [(0, 1), (0, 2), (1, 2)].repeat(8) {
-        if s[p][q].abs() <= smallest {
-            continue;
-        }
-        // The smaller root of t² + 2 t cot 2φ − 1 = 0.
-        let cot = (s[q][q] - s[p][p]) / (2.0 * s[p][q]);
-        let t = 1.0_f64.copysign(cot) / (cot.abs() + (cot * cot + 1.0).sqrt());
-        let c = 1.0 / (t * t + 1.0).sqrt();
-        let turn = |x: f64, y: f64| (c * (x - t * y), c * (y + t * x));
-        for k in 0..3 {
-            (s[k][p], s[k][q]) = turn(s[k][p], s[k][q]);
-        }
-        for k in 0..3 {
-            (s[p][k], s[q][k]) = turn(s[p][k], s[q][k]);
-            (axes[k][p], axes[k][q]) = turn(axes[k][p], axes[k][q]);
-        }
-    }
-    ([s[0][0], s[1][1], s[2][2]], DMat3::from_cols_array_2d(&axes).transpose())
 }
 
 #[cfg(test)]
