@@ -20,6 +20,7 @@ mod run;
 mod scene;
 mod solve;
 mod table;
+mod view;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
@@ -39,6 +40,8 @@ enum Command {
     Run(run::Args),
     /// Make one page of a run that plays it in a browser, with charts and a verdict
     Report(report::Args),
+    /// Serve the page of a run to a browser on this machine, frame by frame, for runs that are too large for one page
+    View(view::Args),
     /// Make pictures or a movie of a run, without a display
     Render(render::Args),
     /// Plot what a run's steps tell: sweeps, residuals, energies, as SVG, PNG or PDF
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::run(&args),
+        Command::View(args) => view::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Plot(args) => plot::run(&args),
         Command::Compare(args) => compare::compare(&args),

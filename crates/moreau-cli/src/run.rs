@@ -1,6 +1,7 @@
 //! `moreau run`.
 
 use crate::failure::{Failure, say, writable, write_whole};
+use crate::view::{self, Pace};
 use crate::{progress, scene};
 use moreau::observe::{FailedProblems, MeasuresCsv, Observer, OutputError, StepsCsv, TrajectoryOutput, VtkOutput};
 use moreau::run::{End, Outcome, Unwritten};
@@ -9,6 +10,8 @@ use moreau::space::Space;
 use moreau::step::{FAILED_KEPT, Workspace};
 use moreau::world::{OnFailure, StepSettings, World};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// Arguments of `moreau run`.
 #[derive(clap::Args)]
@@ -27,6 +30,9 @@ pub(crate) struct Args {
     /// How many threads may be used; default one a core. The results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Show the run while it goes on, as a page on this machine that can pause, step and stop it; afterwards until Ctrl-C
+    #[arg(long)]
+    view: bool,
     /// No progress bar and no summary
     #[arg(long)]
     quiet: bool,
@@ -116,13 +122,39 @@ fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
     Ok(observers)
 }
 
+/// Computes, and shows what is computed if that is asked for.
 fn go<S: Space<D, N>, const D: usize, const N: usize>(
+    args: &Args,
+    scene: &Scene,
+    world: World<S, D, N>,
+    folder: &Path,
+) -> Result<(), Failure> {
+    let (stop, pace) = (progress::stop_on_ctrl_c()?, Pace::default());
+    if !args.view {
+        return compute(args, scene, world, folder, (stop, &pace));
+    }
+    let mut viewer = view::begin(folder)?;
+    let (running, done) = (AtomicBool::new(true), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        scope.spawn(|| viewer.serve(&done, &running, |order| pace.order(order, stop)));
+        let result = compute(args, scene, world, folder, (stop, &pace));
+        running.store(false, Ordering::Relaxed);
+        // It can be looked at until it is enough.
+        while result.is_ok() && !stop.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        done.store(true, Ordering::Relaxed);
+        result
+    })
+}
+
+fn compute<S: Space<D, N>, const D: usize, const N: usize>(
     args: &Args,
     scene: &Scene,
     mut world: World<S, D, N>,
     folder: &Path,
+    (stop, pace): (&'static AtomicBool, &Pace),
 ) -> Result<(), Failure> {
-    let stop = progress::stop_on_ctrl_c()?;
     let mut observers = observers(scene, &world, folder).map_err(Failure::file)?;
     let settings = world.settings;
     let bar = progress::bar(scene.time.steps, args.quiet);
@@ -132,6 +164,7 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
             if !bar.is_hidden() {
                 progress::tick(&bar, record);
             }
+            pace.wait(stop);
         })
     });
     bar.finish_and_clear();

@@ -49,6 +49,11 @@ pub(crate) fn whole(title: &str, meta: &str, blocks: &[String]) -> String {
     assemble(title, &data)
 }
 
+/// The page that asks a server for its data.
+pub(crate) fn served() -> String {
+    assemble("moreau", "")
+}
+
 /// JSON that cannot end the script that it stands in.
 pub(crate) fn script_safe(json: &str) -> String {
     json.replace('<', "\\u003c")
