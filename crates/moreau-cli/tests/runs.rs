@@ -111,7 +111,8 @@ fn only_the_outputs_that_are_asked_for_are_written() {
     };
     assert_eq!(files("output.kinds=[\"steps\"]", "a"), ["scene.toml", "steps.csv", "summary.json"]);
     assert_eq!(files("output.kinds=[\"vtk\"]", "b"), ["scene.toml", "summary.json", "vtk"]);
-    assert_eq!(files("output.every=0", "c"), ["scene.toml", "steps.csv", "summary.json"]);
+    assert_eq!(files("output.every=0", "c"), ["scene.toml", "steps.csv", "summary.json", "trajectory.h5"]);
+    assert_eq!(files("output.kinds=[\"trajectory\"]", "f"), ["scene.toml", "summary.json", "trajectory.h5"]);
     let measured = ["measures.csv", "scene.toml", "summary.json"];
     assert_eq!(files("output.kinds=[\"measures\"]", "e"), measured);
     assert_eq!(files("output.kinds=[]", "d"), ["scene.toml", "summary.json"]);
