@@ -153,7 +153,7 @@ impl Layers {
         let covered = self.glass.as_ref().is_some_and(|g| g.surface.depth[at] > chains.depth[at]);
         let deep = ((near - chains.depth[at]) / (near - far)).clamp(0.0, 1.0);
         let lit = self.lit(self.chain_colours[owner], n, Seen { sky: 1.0, sun: 1.0 }, true);
-        let dark = 0.7 * self.rods.at(chains, x, y).max(0.0);
+        let dark = 0.5 * self.rods.at(chains, x, y).max(0.0);
         over(lit * (1.0 - dark), if covered { 1.0 - 0.65 * deep } else { 1.0 }, behind)
     }
 
