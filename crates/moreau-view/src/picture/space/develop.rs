@@ -138,7 +138,8 @@ impl Layers {
             let place = Vec3::new(x as f32 + 0.5, y as f32 + 0.5, surface.depth[at]);
             let floor = self.floors.iter().find(|f| f.owner == owner);
             let part = self.opacity[owner as usize] * floor.map_or(1.0, |f| f.strength(place));
-            let lit = self.lit(self.colours[owner as usize], surface.normal(at), layer.seen(x, y), floor.is_none());
+            let normal = floor.map_or_else(|| surface.normal(at), |f| f.lit);
+            let lit = self.lit(self.colours[owner as usize], normal, layer.seen(x, y), floor.is_none());
             sum = over(lit, part, sum);
         }
         let dark = self.bodies.at(surface, x, y);

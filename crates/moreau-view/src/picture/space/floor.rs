@@ -7,13 +7,19 @@ use super::{Picture, Shape};
 use glam::{DVec3, Vec3};
 
 /// Radius of a floor, in radii of the scene.
-const REACH: f64 = 2.6;
+const FLOOR: f64 = 2.6;
+/// Radius of a wall: it would hide the page to the picture's edge otherwise.
+const WALL: f64 = 1.5;
+/// Cosine of the angle to the vertical from which on a floor is a wall.
+const STEEP: f64 = 0.7;
 
 /// A half-space as a view sees it.
 pub(super) struct Floor {
     /// Index of its body.
     pub owner: u32,
     normal: Vec3,
+    /// The normal by which it is lit. Walls are lit as floors are, or one in a box would be white and the next one grey.
+    pub lit: Vec3,
     /// The middle of what is drawn.
     foot: Vec3,
     /// Radius of what is drawn, in samples.
@@ -27,11 +33,14 @@ impl Floor {
             let Shape::Plane { normal } = body.shape else { return None };
             let normal = (super::scene::rotation(body) * DVec3::from(normal)).try_normalize()?;
             let foot = middle - normal * normal.dot(middle - DVec3::from(body.position));
+            let up = DVec3::from(picture.up).normalize();
+            let wall = normal.dot(up).abs() < STEEP;
             Some(Self {
                 owner: owner as u32,
                 normal: view.direction(normal),
+                lit: view.direction(if wall { up } else { normal }),
                 foot: view.point(foot),
-                radius: (radius * REACH * view.scale) as f32,
+                radius: (radius * if wall { WALL } else { FLOOR } * view.scale) as f32,
             })
         };
         picture.bodies.iter().enumerate().filter(|(_, b)| is_there(b)).filter_map(floor).collect()
