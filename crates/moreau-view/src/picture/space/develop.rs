@@ -100,10 +100,14 @@ impl Layers {
     /// The mean of a pixel's samples. Where they and those about them show one smooth surface, one of them tells it.
     fn pixel(&self, x: usize, y: usize) -> Vec4 {
         let [left, top] = [FINE * x, FINE * y];
-        let surface = &self.opaque.surface;
-        let inner = x > 0 && y > 0 && left + FINE < surface.size[0] && top + FINE < surface.size[1];
-        let single = self.glass.is_none() && self.chains.is_none();
-        if single && inner && surface.is_even([left - 1, top - 1], FINE + 2, |owner| self.bodies.has_edges(owner)) {
+        let [width, height] = self.opaque.surface.size;
+        let inner = x > 0 && y > 0 && left + FINE < width && top + FINE < height;
+        let even = |surface: &Surface| surface.is_even([left - 1, top - 1], FINE + 2, |owner| self.bodies.has_edges(owner));
+        let smooth = inner
+            && even(&self.opaque.surface)
+            && self.glass.as_ref().is_none_or(|glass| even(&glass.surface))
+            && self.chains.as_ref().is_none_or(|chains| chains.is_even([left - 1, top - 1], FINE + 2, |_| false));
+        if smooth {
             return self.sample(left, top);
         }
         let samples = (0..FINE * FINE).map(|i| self.sample(left + i % FINE, top + i / FINE));
