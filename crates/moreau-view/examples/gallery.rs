@@ -1,22 +1,76 @@
 //! Draws a few pictures into a folder: `cargo run --release -p moreau-view --example gallery -- out`.
 
-use moreau_view::picture::{Body, Mesh, Picture, Segment, Shape, colour};
+use moreau_view::picture::flat::{Drawing, Figure, Link, Outline};
+use moreau_view::picture::movie::Movie;
+use moreau_view::picture::{Body, Camera, Mesh, Picture, Segment, Shape, colour};
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "gallery".into()));
     std::fs::create_dir_all(&folder)?;
-    for (name, picture) in
-        [("heap", heap(500)), ("chains", chains()), ("cubes", cubes()), ("arch", arch()), ("many", heap(20_000))]
-    {
+    let pictures = [("heap", heap(500)), ("chains", chains()), ("cubes", cubes()), ("arch", arch()), ("many", heap(20_000))];
+    for (name, picture) in pictures {
         let start = Instant::now();
         let image = picture.draw()?;
         println!("{name}: {} bodies drawn in {:.3} s", picture.bodies.len(), start.elapsed().as_secs_f64());
         image.save(folder.join(name).with_extension("png"))?;
     }
+    for ending in ["svg", "pdf", "png"] {
+        packing().save(folder.join("packing").with_extension(ending))?;
+    }
+    movie(&folder.join("turn.gif"))?;
+    // Not everyone has ffmpeg; the error says what to do about it.
+    if let Err(error) = movie(&folder.join("turn.mp4")) {
+        println!("{error}");
+    }
     Ok(())
+}
+
+/// A walk around the cubes.
+fn movie(path: &Path) -> Result<(), moreau_view::picture::Error> {
+    let picture = Picture { size: [480, 360], ..cubes() };
+    let width = picture.fitted_camera()?.width;
+    let mut movie = Movie::open(path, picture.size, 25.0)?;
+    for i in 0..75 {
+        let angle = f64::from(i) / 75.0 * std::f64::consts::TAU;
+        let camera = Camera { direction: Some([-angle.sin(), angle.cos(), -0.5]), target: Some([0.0, 0.0, 2.3]), width };
+        movie.add(&Picture { camera, ..picture.clone() }.draw()?)?;
+    }
+    movie.finish()
+}
+
+/// Disks in a box, pushed apart, with lines where they press on each other.
+fn packing() -> Drawing {
+    let mut dice = Dice(11);
+    let mut disks: Vec<([f64; 3], f64)> =
+        (0..260).map(|_| ([1.0 + 22.0 * dice.roll(), 0.0, 1.0 + 16.0 * dice.roll()], 0.45 + 0.5 * dice.roll())).collect();
+    for _ in 0..600 {
+        push_apart(&mut disks);
+        for (p, r) in &mut disks {
+            *p = [p[0].clamp(*r, 24.0 - *r), 0.0, (p[2] - 0.01).max(*r)];
+        }
+    }
+    let flat = |p: [f64; 3]| [p[0], p[2]];
+    let wall = |normal, position| Figure { position, ..Figure::new(Outline::HalfPlane { normal }) };
+    let walls = [wall([0.0, 1.0], [0.0; 2]), wall([1.0, 0.0], [0.0; 2]), wall([-1.0, 0.0], [24.0, 0.0])];
+    let disk = |&(p, radius): &([f64; 3], f64)| Figure { position: flat(p), ..Figure::new(Outline::Disk { radius }) };
+    let mut drawing = Drawing {
+        title: "Forces between disks in a box".into(),
+        figures: walls.into_iter().chain(disks.iter().map(disk)).collect(),
+        ..Drawing::default()
+    };
+    for (i, (p, r)) in disks.iter().enumerate() {
+        for (q, s) in &disks[..i] {
+            let force = (r + s + 0.002 - (p[0] - q[0]).hypot(p[2] - q[2])) * 9.0;
+            if force > 0.0 {
+                let colour = colour::category(usize::from(dice.roll() < 0.2));
+                drawing.links.push(Link { from: flat(*p), to: flat(*q), width: 0.05 + 0.4 * force.min(1.0), colour });
+            }
+        }
+    }
+    drawing
 }
 
 /// Numbers from 0 to 1 that look random.
@@ -99,7 +153,7 @@ fn chains() -> Picture {
             let force = ((r + s - d) * 4.0 + 0.2 - 0.02 * p[2]).clamp(0.0, 1.0) * (p[2] - q[2]).abs() / d;
             if d < r + s + 0.02 && force > 0.02 {
                 let radius = 0.04 + 0.25 * force;
-                let colour = colour::sequential(force.sqrt());
+                let colour = colour::mix([120, 140, 170], [213, 70, 0], 1.4 * force);
                 picture.chains.push(Segment { from: *p, to: *q, radius, colour });
             }
         }

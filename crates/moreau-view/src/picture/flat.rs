@@ -1,6 +1,6 @@
 //! Pictures of the plane: lines and areas, for print as SVG or PDF, for the screen as an [`Image`].
 //!
-//! A [`Drawing`] becomes [`mark::Mark`]s on a page once, and each format writes the same marks.
+//! A [`Drawing`] becomes marks on a page once, and each format writes the same marks.
 
 mod mark;
 mod pdf;

@@ -44,7 +44,7 @@ pub struct Mesh {
     pub polygons: Vec<Vec<usize>>,
 }
 
-/// A body. One with a position or a rotation that is not finite is left out.
+/// A body. One with a position, a rotation or a radius that is not finite is left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// What it looks like.
@@ -60,10 +60,11 @@ pub struct Body {
 }
 
 impl Body {
-    /// A light grey body at the origin.
+    /// A light grey body at the origin; a plane is nearly white.
     #[must_use]
     pub fn new(shape: Shape) -> Self {
-        Self { shape, position: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], colour: [222, 224, 228], opacity: 1.0 }
+        let colour = if matches!(shape, Shape::Plane { .. }) { [240, 241, 243] } else { [222, 224, 228] };
+        Self { shape, position: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], colour, opacity: 1.0 }
     }
 }
 
@@ -104,7 +105,7 @@ pub struct Picture {
     pub up: [f64; 3],
     /// From where it is taken.
     pub camera: Camera,
-    /// Width and height in pixels.
+    /// Width and height in pixels. Drawing takes some hundred bytes of memory a pixel.
     pub size: [usize; 2],
     /// Colour and opacity where nothing is.
     pub background: [u8; 4],

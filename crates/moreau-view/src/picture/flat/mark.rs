@@ -55,8 +55,9 @@ impl Page {
         let mut marks = Vec::new();
         let there = |f: &&Figure| f.position.iter().all(|x| x.is_finite()) && f.angle.is_finite();
         let ground = |f: &&Figure| matches!(f.outline, Outline::HalfPlane { .. });
-        for figure in drawing.figures.iter().filter(there).filter(ground) {
-            marks.extend(on_page.ground(figure));
+        let grounds: Vec<_> = drawing.figures.iter().filter(there).filter_map(|f| on_page.line(f)).collect();
+        for ground in &grounds {
+            marks.extend(on_page.ground(ground, &grounds));
         }
         for figure in drawing.figures.iter().filter(there).filter(|f| !ground(f)) {
             on_page.body(figure, drawing.spokes, &mut marks);
@@ -117,13 +118,25 @@ impl OnPage {
         }
     }
 
-    /// The line of a half-plane within the page, and its hatches; none where it is out of sight.
-    fn ground(&self, figure: &Figure) -> Vec<Mark> {
-        let Outline::HalfPlane { normal } = figure.outline else { return Vec::new() };
-        let normal = DVec2::from_angle(figure.angle).rotate(normal.into()).normalize_or(DVec2::Y);
-        let (p, n) = (self.point(figure.position.into()), DVec2::new(normal.x, -normal.y));
-        let along = n.perp();
-        let Some((from, to)) = clip(p, along, self.size) else { return Vec::new() };
+    /// The border of a half-plane.
+    fn line(&self, figure: &Figure) -> Option<Border> {
+        let Outline::HalfPlane { normal } = figure.outline else { return None };
+        let normal = DVec2::from_angle(figure.angle).rotate(normal.into()).try_normalize()?;
+        Some(Border { foot: self.point(figure.position.into()), normal: DVec2::new(normal.x, -normal.y), colour: figure.colour })
+    }
+
+    /// The border within the page and outside all half-planes, and its hatches; none where it is out of sight.
+    fn ground(&self, border: &Border, grounds: &[Border]) -> Vec<Mark> {
+        let (p, n, along) = (border.foot, border.normal, border.normal.perp());
+        let page = [
+            Border { foot: DVec2::ZERO, normal: DVec2::X, ..*border },
+            Border { foot: DVec2::ZERO, normal: DVec2::Y, ..*border },
+            Border { foot: self.size, normal: -DVec2::X, ..*border },
+            Border { foot: self.size, normal: -DVec2::Y, ..*border },
+        ];
+        let all = (f64::NEG_INFINITY, f64::INFINITY);
+        let cut = page.iter().chain(grounds).try_fold(all, |part, other| other.cut(part, p, along));
+        let Some((from, to)) = cut else { return Vec::new() };
         let first = (from / HATCH).ceil() as i64;
         let last = (to / HATCH).floor() as i64;
         let hatch = |i: i64| {
@@ -132,26 +145,33 @@ impl OnPage {
         };
         let lines = |width: f64, lines: Vec<[DVec2; 2]>| Mark {
             place: Place::Lines(lines),
-            style: Style { fill: None, stroke: Some((figure.colour, width)), opacity: 1.0 },
+            style: Style { fill: None, stroke: Some((border.colour, width)), opacity: 1.0 },
         };
         vec![lines(0.4, (first..=last).map(hatch).collect()), lines(1.0, vec![[p + along * from, p + along * to]])]
     }
 }
 
-/// From where to where the line through `p` is on the page.
-fn clip(p: DVec2, along: DVec2, size: DVec2) -> Option<(f64, f64)> {
-    let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
-    for (x, d, end) in [(p.x, along.x, size.x), (p.y, along.y, size.y)] {
-        if d.abs() < 1e-12 {
-            if !(0.0..=end).contains(&x) {
-                return None;
-            }
-            continue;
-        }
-        let (a, b) = (-x / d, (end - x) / d);
-        (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
+/// The border of a half-plane on the page.
+struct Border {
+    foot: DVec2,
+    /// Out of the half-plane.
+    normal: DVec2,
+    colour: [u8; 3],
+}
+
+impl Border {
+    /// What of a part of the line through `p` is outside this half-plane, or on its border.
+    fn cut(&self, (from, to): (f64, f64), p: DVec2, along: DVec2) -> Option<(f64, f64)> {
+        let (height, rise) = (self.normal.dot(p - self.foot), self.normal.dot(along));
+        let (from, to) = if rise.abs() < 1e-9 {
+            (from, if height < -1e-9 { from } else { to })
+        } else if rise > 0.0 {
+            (from.max(-height / rise), to)
+        } else {
+            (from, to.min(-height / rise))
+        };
+        (from < to).then_some((from, to))
     }
-    (from < to).then_some((from, to))
 }
 
 /// The window about all bounded figures.

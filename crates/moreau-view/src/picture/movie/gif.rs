@@ -1,6 +1,7 @@
 //! GIF.
 //!
-//! All images share one palette, so that nothing flickers. It is known only at the end; until then the images wait in a file.
+//! All images share one palette, so that nothing flickers. It is known only at the end; until then the images wait in a file. Colours
+//! are not dithered: shaded bodies need few of them, dots would be seen, and the file would grow by a third.
 
 use super::palette::{Census, Palette};
 use crate::picture::{Error, file};
@@ -14,9 +15,8 @@ use std::path::{Path, PathBuf};
 
 /// Programs show an image for at least two hundredths of a second.
 pub(super) const MAX_RATE: f64 = 50.0;
-/// Colours of the palette; the last index means that nothing changes.
+/// Colours of the palette. One more entry means that nothing changes.
 const COLOURS: usize = 255;
-const UNCHANGED: u8 = 255;
 
 #[derive(Debug)]
 pub(super) struct Gif {
@@ -72,8 +72,9 @@ fn encode(
     lengths: &[u64],
     mut palette: Palette,
 ) -> io::Result<()> {
-    let mut encoder =
-        Encoder::new(out, size[0] as u16, size[1] as u16, palette.colours.as_flattened()).map_err(io::Error::other)?;
+    let unchanged = palette.colours.len() as u8;
+    let entries = [palette.colours.as_flattened(), &[0; 3]].concat();
+    let mut encoder = Encoder::new(out, size[0] as u16, size[1] as u16, &entries).map_err(io::Error::other)?;
     encoder.set_repeat(Repeat::Infinite).map_err(io::Error::other)?;
     let mut shown: Option<Vec<u8>> = None;
     for (i, &length) in lengths.iter().enumerate() {
@@ -82,9 +83,8 @@ fn encode(
         part.read_exact(colours.as_flattened_mut())?;
         // What the decoder's buffer has not asked for yet.
         io::copy(part.get_mut(), &mut io::sink())?;
-        let indices: Vec<u8> =
-            colours.iter().enumerate().map(|(at, &c)| palette.nearest(dither(c, at % size[0], at / size[0]))).collect();
-        let mut frame = changed(&indices, shown.as_deref(), size);
+        let indices: Vec<u8> = colours.iter().map(|&c| palette.nearest(c)).collect();
+        let mut frame = changed(&indices, shown.as_deref(), size, unchanged);
         // Hundredths of a second, rounded so that the movie as a whole takes its time.
         let end = |images: usize| (images as f64 * 100.0 / rate).round();
         frame.delay = (end(i + 1) - end(i)) as u16;
@@ -94,19 +94,19 @@ fn encode(
     encoder.into_inner().map_err(io::Error::other)?.flush()
 }
 
-/// The part of an image that differs from the one before; what is equal within it is said to be unchanged.
-fn changed(indices: &[u8], shown: Option<&[u8]>, [width, height]: [usize; 2]) -> Frame<'static> {
+/// The part of an image that differs from the one before; what is equal within it is said to be so.
+fn changed(indices: &[u8], shown: Option<&[u8]>, [width, height]: [usize; 2], unchanged: u8) -> Frame<'static> {
     let differs = |x: usize, y: usize| shown.is_none_or(|s| s[y * width + x] != indices[y * width + x]);
     let rows = ends((0..height).filter(|&y| (0..width).any(|x| differs(x, y))));
     let columns = ends((0..width).filter(|&x| (rows.0..=rows.1).any(|y| differs(x, y))));
     let mut buffer = Vec::new();
     for y in rows.0..=rows.1 {
-        let pixel = |x: usize| if differs(x, y) { indices[y * width + x] } else { UNCHANGED };
+        let pixel = |x: usize| if differs(x, y) { indices[y * width + x] } else { unchanged };
         buffer.extend((columns.0..=columns.1).map(pixel));
     }
     Frame {
         dispose: DisposalMethod::Keep,
-        transparent: Some(UNCHANGED),
+        transparent: Some(unchanged),
         left: columns.0 as u16,
         top: rows.0 as u16,
         width: (columns.1 - columns.0 + 1) as u16,
@@ -119,11 +119,4 @@ fn changed(indices: &[u8], shown: Option<&[u8]>, [width, height]: [usize; 2]) ->
 /// The first and last of some numbers; zero for none, since a frame has at least one pixel.
 fn ends(numbers: impl Iterator<Item = usize>) -> (usize, usize) {
     numbers.fold(None, |ends, n| Some((ends.map_or(n, |(first, _)| first), n))).unwrap_or((0, 0))
-}
-
-/// Shifts a colour by a pattern that is the same in all images, so that slow gradients do not fall into stripes.
-fn dither(colour: [u8; 3], x: usize, y: usize) -> [u8; 3] {
-    const PATTERN: [[i16; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
-    let shift = (2 * PATTERN[y % 4][x % 4] - 15) / 5;
-    colour.map(|c| (i16::from(c) + shift).clamp(0, 255) as u8)
 }

@@ -97,4 +97,16 @@ mod tests {
         assert!(error.to_string().contains(".gif"), "{error}");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_program_that_gives_up_is_an_error_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut movie = Mp4::open("false", &folder.path().join("a.mp4"), [16, 16], 25.0).unwrap();
+        // It may take an image before it is gone.
+        let added = movie.add(&[[0; 3]; 256]);
+        let error = added.and_then(|()| movie.finish()).unwrap_err();
+        assert!(matches!(error, Error::Ffmpeg { .. }), "{error}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
 }

@@ -1,15 +1,14 @@
 //! From what is where to colours.
 
 use super::floor::{self, Floor};
-use super::light::{Light, Seen};
+use super::light::{Light, Seen, rows};
 use super::outline::Outline;
 use super::scene::{self, Scene};
 use super::surface::{NOTHING, Surface};
 use super::view::{FINE, View};
-use super::{Body, Image, Picture, fit};
+use super::{Body, Image, Picture, Segment, Shape, fit};
 use crate::picture::colour::{encode, linear};
 use glam::{Vec3, Vec4};
-use rayon::prelude::*;
 
 /// Steps from no light to full light in the table of sRGB values.
 const STEPS: usize = 4096;
@@ -23,9 +22,10 @@ pub(super) fn develop(picture: &Picture, scene: &Scene, view: &View) -> Image {
     floor::draw(&mut opaque, &floors);
     let glass = scene.bodies(picture, view, |b| b.opacity < 1.0);
     let chains = scene::chains(picture, view);
-    let radius = |b: &Body| scene.radius(b).map(|r| (r * view.scale) as f32 / FINE as f32);
-    let rod = |c: &super::Segment| Some((c.radius * view.scale) as f32 / FINE as f32);
-    let bodies = Outline::new(picture.bodies.iter().map(radius));
+    let pixels = |length: f64| (length * view.scale) as f32 / FINE as f32;
+    let body = |b: &Body| (scene.radius(b).map(pixels), matches!(b.shape, Shape::Mesh(_)));
+    let rod = |c: &Segment| (Some(pixels(c.radius)), false);
+    let bodies = Outline::new(picture.bodies.iter().map(body));
     let table: Vec<u8> = (0..=STEPS).map(|i| encode(i as f32 / STEPS as f32)).collect();
     let layers = Layers {
         colours: picture.bodies.iter().map(|b| light_of(b.colour)).collect(),
@@ -44,15 +44,11 @@ pub(super) fn develop(picture: &Picture, scene: &Scene, view: &View) -> Image {
             .map(|x| x * f32::from(picture.background[3]) / 255.0),
     };
     let pixel = |x: usize, y: usize| {
-        let samples = (0..FINE * FINE).map(|i| layers.sample(FINE * x + i % FINE, FINE * y + i / FINE));
-        let sum = samples.sum::<Vec4>() / (FINE * FINE) as f32;
-        let [r, g, b, a] = sum.to_array();
+        let [r, g, b, a] = layers.pixel(x, y).to_array();
         let value = |light: f32| table[((light / a.max(1e-6)).clamp(0.0, 1.0) * STEPS as f32 + 0.5) as usize];
         [value(r), value(g), value(b), (255.0 * a.clamp(0.0, 1.0) + 0.5) as u8]
     };
-    let [width, height] = picture.size;
-    let row = |y: usize| (0..width).map(move |x| (x, y));
-    let pixels = (0..height).into_par_iter().flat_map_iter(row).map(|(x, y)| pixel(x, y)).collect();
+    let pixels = rows(picture.size, pixel);
     Image { size: picture.size, pixels }
 }
 
@@ -101,6 +97,23 @@ struct Layers {
 }
 
 impl Layers {
+    /// The mean of a pixel's samples. Where they and those about them show one smooth surface, one of them tells it.
+    fn pixel(&self, x: usize, y: usize) -> Vec4 {
+        let [left, top] = [FINE * x, FINE * y];
+        let [width, height] = self.opaque.surface.size;
+        let inner = x > 0 && y > 0 && left + FINE < width && top + FINE < height;
+        let even = |surface: &Surface| surface.is_even([left - 1, top - 1], FINE + 2, |owner| self.bodies.has_edges(owner));
+        let smooth = inner
+            && even(&self.opaque.surface)
+            && self.glass.as_ref().is_none_or(|glass| even(&glass.surface))
+            && self.chains.as_ref().is_none_or(|chains| chains.is_even([left - 1, top - 1], FINE + 2, |_| false));
+        if smooth {
+            return self.sample(left, top);
+        }
+        let samples = (0..FINE * FINE).map(|i| self.sample(left + i % FINE, top + i / FINE));
+        samples.sum::<Vec4>() / (FINE * FINE) as f32
+    }
+
     /// Light and opacity of a sample, the light multiplied by the opacity.
     fn sample(&self, x: usize, y: usize) -> Vec4 {
         let mut sum = self.body(&self.opaque, x, y, self.background, 1.0);
@@ -129,7 +142,8 @@ impl Layers {
             let place = Vec3::new(x as f32 + 0.5, y as f32 + 0.5, surface.depth[at]);
             let floor = self.floors.iter().find(|f| f.owner == owner);
             let part = self.opacity[owner as usize] * floor.map_or(1.0, |f| f.strength(place));
-            let lit = self.lit(self.colours[owner as usize], surface.normal(at), layer.seen(x, y), floor.is_none());
+            let normal = floor.map_or_else(|| surface.normal(at), |f| f.lit);
+            let lit = self.lit(self.colours[owner as usize], normal, layer.seen(x, y), floor.is_none());
             sum = over(lit, part, sum);
         }
         let dark = self.bodies.at(surface, x, y);
@@ -144,8 +158,8 @@ impl Layers {
         let covered = self.glass.as_ref().is_some_and(|g| g.surface.depth[at] > chains.depth[at]);
         let deep = ((near - chains.depth[at]) / (near - far)).clamp(0.0, 1.0);
         let lit = self.lit(self.chain_colours[owner], n, Seen { sky: 1.0, sun: 1.0 }, true);
-        let dark = 0.7 * self.rods.at(chains, x, y).max(0.0);
-        over(lit * (1.0 - dark), if covered { 1.0 - 0.75 * deep } else { 1.0 }, behind)
+        let dark = 0.5 * self.rods.at(chains, x, y).max(0.0);
+        over(lit * (1.0 - dark), if covered { 1.0 - 0.65 * deep } else { 1.0 }, behind)
     }
 
     fn lit(&self, colour: Vec3, n: Vec3, seen: Seen, shiny: bool) -> Vec3 {

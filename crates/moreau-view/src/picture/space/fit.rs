@@ -57,7 +57,9 @@ fn extent(picture: &Picture, axes: DMat3) -> (DVec3, DVec3) {
     let mut bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut hold = |p: DVec3, radius: f64| {
         let q = axes * p;
-        bounds = (bounds.0.min(q - radius), bounds.1.max(q + radius));
+        if q.is_finite() {
+            bounds = (bounds.0.min(q - radius), bounds.1.max(q + radius));
+        }
     };
     for body in picture.bodies.iter().filter(|b| is_there(b)) {
         let position = DVec3::from(body.position);

@@ -7,13 +7,19 @@ use super::{Picture, Shape};
 use glam::{DVec3, Vec3};
 
 /// Radius of a floor, in radii of the scene.
-const REACH: f64 = 2.6;
+const FLOOR: f64 = 2.6;
+/// Radius of a wall: it would hide the page to the picture's edge otherwise.
+const WALL: f64 = 1.5;
+/// Cosine of the angle to the vertical from which on a floor is a wall.
+const STEEP: f64 = 0.7;
 
 /// A half-space as a view sees it.
 pub(super) struct Floor {
     /// Index of its body.
     pub owner: u32,
     normal: Vec3,
+    /// The normal by which it is lit. Walls are lit as floors are, or one in a box would be white and the next one grey.
+    pub lit: Vec3,
     /// The middle of what is drawn.
     foot: Vec3,
     /// Radius of what is drawn, in samples.
@@ -27,11 +33,14 @@ impl Floor {
             let Shape::Plane { normal } = body.shape else { return None };
             let normal = (super::scene::rotation(body) * DVec3::from(normal)).try_normalize()?;
             let foot = middle - normal * normal.dot(middle - DVec3::from(body.position));
+            let up = DVec3::from(picture.up).normalize();
+            let wall = normal.dot(up).abs() < STEEP;
             Some(Self {
                 owner: owner as u32,
                 normal: view.direction(normal),
+                lit: view.direction(if wall { up } else { normal }),
                 foot: view.point(foot),
-                radius: (radius * REACH * view.scale) as f32,
+                radius: (radius * if wall { WALL } else { FLOOR } * view.scale) as f32,
             })
         };
         picture.bodies.iter().enumerate().filter(|(_, b)| is_there(b)).filter_map(floor).collect()
@@ -43,10 +52,14 @@ impl Floor {
         1.0 - t * t * (3.0 - 2.0 * t)
     }
 
-    /// Depth at a sample, unless seen from within.
-    fn depth(&self, x: f32, y: f32) -> Option<f32> {
-        let z = self.foot.z - (self.normal.x * (x - self.foot.x) + self.normal.y * (y - self.foot.y)) / self.normal.z;
-        (self.normal.z > 1e-3 && self.strength(Vec3::new(x, y, z)) > 0.0).then_some(z)
+    /// Where a line of sight meets it.
+    fn at(&self, x: f32, y: f32) -> Vec3 {
+        let down = self.normal.x * (x - self.foot.x) + self.normal.y * (y - self.foot.y);
+        Vec3::new(x, y, self.foot.z - down / self.normal.z)
+    }
+
+    fn reaches(&self, p: Vec3) -> bool {
+        p.distance_squared(self.foot) < self.radius * self.radius
     }
 
     fn covers(&self, p: Vec3) -> bool {
@@ -57,17 +70,17 @@ impl Floor {
 /// Draws floors where they are nearer than what is there. What lies inside another half-space is left out, so that walls end at floors.
 pub(super) fn draw(surface: &mut Surface, floors: &[Floor]) {
     let width = surface.size[0];
-    if floors.is_empty() {
+    let seen: Vec<&Floor> = floors.iter().filter(|f| f.normal.z > 1e-3).collect();
+    if seen.is_empty() {
         return;
     }
     surface.bands(|band| {
         for at in 0..band.depth.len() {
             let (x, y) = ((at % width) as f32 + 0.5, (band.top + at / width) as f32 + 0.5);
-            for floor in floors {
-                let Some(z) = floor.depth(x, y) else { continue };
-                let p = Vec3::new(x, y, z);
-                if z > band.depth[at] && !floors.iter().any(|other| other.covers(p)) {
-                    band.put(at, z, floor.owner, || floor.normal);
+            for floor in &seen {
+                let p = floor.at(x, y);
+                if p.z > band.depth[at] && floor.reaches(p) && !floors.iter().any(|other| other.covers(p)) {
+                    band.put(at, p.z, floor.owner, || floor.normal);
                 }
             }
         }

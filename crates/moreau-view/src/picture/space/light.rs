@@ -4,13 +4,11 @@ use super::Picture;
 use super::scene::Scene;
 use super::surface::{NOTHING, Surface};
 use super::view::{FINE, View};
-use glam::{DVec3, Mat3, Vec3};
+use glam::{DVec3, Mat3, Vec2, Vec3};
 use rayon::prelude::*;
 
-/// Samples along a side of the shadow map.
-const MAP: usize = 1280;
 /// Looks at the neighbourhood of a pixel for the sky, and at the map for the sun.
-const LOOKS: usize = 12;
+const LOOKS: usize = 8;
 /// Radius of a half-shadow in samples of the map.
 const SOFT: f32 = 5.0;
 /// The pattern of looks turns from pixel to pixel and repeats after as many, over which it is averaged.
@@ -29,12 +27,14 @@ pub(super) struct Light {
     scale: f32,
     /// Opacity of each body.
     opacity: Vec<f32>,
-    /// How far from a place things still hide its sky, in samples.
+    /// Where to look, within a circle of one, for each pixel of the pattern.
+    looks: Vec<[Vec2; LOOKS]>,
+    /// How far from a place things still hide its sky, in pixels.
     near: f32,
 }
 
 /// Part of the sky and of the sun that a place sees.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Seen {
     pub sky: f32,
     pub sun: f32,
@@ -47,7 +47,9 @@ impl Light {
         // From above, over the left shoulder of who looks.
         let level = (eye - up * eye.dot(up)).normalize_or(right.cross(up));
         let sun = (up * 1.0 + level * 0.42 - right * 0.52).normalize();
-        let from_sun = View::square(-sun, middle, 1.02 * radius, MAP);
+        // As fine as the picture itself, about.
+        let samples = (view.size[0].max(view.size[1]) / FINE).clamp(64, 2048);
+        let from_sun = View::square(-sun, middle, 1.02 * radius, samples);
         let map = Surface::new(from_sun.size, &scene.bodies(picture, &from_sun, |_| true));
         let (turn, shift) = view.to(&from_sun);
         Self {
@@ -58,84 +60,112 @@ impl Light {
             shift,
             scale: (from_sun.scale / view.scale) as f32,
             opacity: picture.bodies.iter().map(|b| b.opacity.min(1.0) as f32).collect(),
-            near: (middle_radius(picture, scene) * view.scale).clamp(8.0, 70.0) as f32,
+            looks: (0..PATTERN * PATTERN).map(spiral).collect(),
+            near: (middle_radius(picture, scene) * view.scale / FINE as f64).clamp(4.0, 35.0) as f32,
         }
     }
 
     /// What the upper left sample of each pixel sees, evened out over its neighbours on the same body.
     pub(super) fn seen(&self, surface: &Surface) -> Vec<Seen> {
-        let width = surface.size[0] / FINE;
-        let rough: Vec<Seen> = (0..surface.size[1] / FINE)
-            .into_par_iter()
-            .flat_map_iter(|y| (0..width).map(move |x| self.look(surface, x, y)))
-            .collect();
-        let even = |x: usize, y: usize| even(surface, &rough, x, y);
-        (0..surface.size[1] / FINE).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| even(x, y))).collect()
+        let size = surface.size.map(|n| n / FINE);
+        let sample = |x: usize, y: usize| FINE * (y * surface.size[0] + x);
+        // Together in memory these are found sooner.
+        let coarse = Coarse {
+            size,
+            owner: rows(size, |x, y| surface.owner[sample(x, y)]),
+            depth: rows(size, |x, y| surface.depth[sample(x, y)] / FINE as f32),
+        };
+        let rough = rows(size, |x, y| self.look(&coarse, || surface.normal(sample(x, y)), x, y));
+        rows(size, |x, y| coarse.even(&rough, x, y))
     }
 
-    fn look(&self, surface: &Surface, x: usize, y: usize) -> Seen {
-        let at = FINE * (y * surface.size[0] + x);
-        if surface.owner[at] == NOTHING {
+    fn look(&self, coarse: &Coarse, normal: impl FnOnce() -> Vec3, x: usize, y: usize) -> Seen {
+        let at = y * coarse.size[0] + x;
+        if coarse.owner[at] == NOTHING {
             return Seen { sky: 1.0, sun: 1.0 };
         }
-        let p = Vec3::new((FINE * x) as f32 + 0.5, (FINE * y) as f32 + 0.5, surface.depth[at]);
-        let n = surface.normal(at);
-        // Any sixteen different angles will do, as long as neighbours differ much.
-        let start = ((x % PATTERN) * 7 + (y % PATTERN) * 11) as f32 * 0.61;
-        let (mut hidden, mut shade) = (0.0, 0.0);
-        let q = self.turn * (p + n * (1.5 / self.scale)) + self.shift;
-        for i in 0..LOOKS {
-            // A spiral by the golden angle covers a disk evenly.
-            let (sin, cos) = (start + i as f32 * 2.399_963).sin_cos();
-            let r = ((i as f32 + 0.5) / LOOKS as f32).sqrt();
-            hidden += self.hidden(surface, p, n, [cos * r * self.near, sin * r * self.near]);
-            shade += self.shade(q, [cos * r * SOFT, sin * r * SOFT]);
-        }
-        Seen { sky: (1.0 - 1.5 * hidden / LOOKS as f32).max(0.0), sun: 1.0 - shade / LOOKS as f32 }
+        let (p, n) = (Vec3::new(x as f32, y as f32, coarse.depth[at]), normal());
+        let looks = &self.looks[PATTERN * (y % PATTERN) + x % PATTERN];
+        let hidden: f32 = looks.iter().map(|&step| coarse.hidden(p, n, step, self.near)).sum();
+        // What faces away from the sun is dark of itself.
+        let turned = n.dot(self.sun) <= 0.0;
+        let shade = if turned { 0.0 } else { self.shaded(p * FINE as f32 + n * (1.5 / self.scale), looks) };
+        Seen { sky: (1.0 - 1.5 * hidden / LOOKS as f32).max(0.0), sun: 1.0 - shade }
     }
 
-    /// How much of the sky over `p` is hidden by what the sample at `step` from it shows.
-    fn hidden(&self, surface: &Surface, p: Vec3, n: Vec3, step: [f32; 2]) -> f32 {
-        let (x, y) = (p.x + step[0], p.y + step[1]);
-        if x < 0.0 || y < 0.0 || x >= surface.size[0] as f32 || y >= surface.size[1] as f32 {
-            return 0.0;
-        }
-        let (column, row) = (x as usize, y as usize);
-        let depth = surface.depth[row * surface.size[0] + column];
-        let v = Vec3::new(column as f32 + 0.5 - p.x, row as f32 + 0.5 - p.y, depth - p.z);
-        if depth == f32::NEG_INFINITY {
-            return 0.0;
-        }
-        ((v.dot(n) - 0.5).max(0.0) * self.near / (v.length_squared() + 0.05 * self.near * self.near)).min(2.5)
+    /// How much of the sun is hidden from a place in samples.
+    fn shaded(&self, p: Vec3, looks: &[Vec2; LOOKS]) -> f32 {
+        let q = self.turn * p + self.shift;
+        looks.iter().map(|&step| self.shade(q, step * SOFT)).sum::<f32>() / LOOKS as f32
     }
 
     /// How much of the sun is hidden from a place of the map.
-    fn shade(&self, q: Vec3, step: [f32; 2]) -> f32 {
-        let (x, y) = (q.x + step[0], q.y + step[1]);
-        if x < 0.0 || y < 0.0 || x >= MAP as f32 || y >= MAP as f32 {
+    fn shade(&self, q: Vec3, step: Vec2) -> f32 {
+        let (x, y) = (q.x + step.x, q.y + step.y);
+        let side = self.map.size[0];
+        if x < 0.0 || y < 0.0 || x >= side as f32 || y >= side as f32 {
             return 0.0;
         }
-        let at = y as usize * MAP + x as usize;
+        let at = y as usize * side + x as usize;
         if self.map.depth[at] > q.z + SOFT { self.opacity[self.map.owner[at] as usize] } else { 0.0 }
     }
 }
 
-/// The average over the pixels that share the pattern, as far as they show the same body near the same depth.
-fn even(surface: &Surface, rough: &[Seen], x: usize, y: usize) -> Seen {
-    let [width, height] = surface.size.map(|n| n / FINE);
-    let sample = |x: usize, y: usize| FINE * (y * surface.size[0] + x);
-    let own = sample(x, y);
-    let (mut sum, mut count) = (Seen { sky: 0.0, sun: 0.0 }, 0.0);
-    for row in (y + 1).saturating_sub(PATTERN / 2)..(y + 1 + PATTERN / 2).min(height) {
-        for column in (x + 1).saturating_sub(PATTERN / 2)..(x + 1 + PATTERN / 2).min(width) {
-            if surface.owner[sample(column, row)] == surface.owner[own] {
-                let seen = rough[row * width + column];
-                sum = Seen { sky: sum.sky + seen.sky, sun: sum.sun + seen.sun };
-                count += 1.0;
+/// A value for each pixel, rows in parallel.
+pub(super) fn rows<T: Copy + Default + Send>([width, height]: [usize; 2], each: impl Fn(usize, usize) -> T + Sync) -> Vec<T> {
+    let mut values = vec![T::default(); width * height];
+    let fill = |(y, row): (usize, &mut [T])| row.iter_mut().enumerate().for_each(|(x, value)| *value = each(x, y));
+    values.par_chunks_mut(width).enumerate().for_each(fill);
+    values
+}
+
+/// A spiral by the golden angle, which covers a disk evenly. Neighbours in the pattern begin it at angles that differ much.
+fn spiral(pattern: usize) -> [Vec2; LOOKS] {
+    let start = (pattern * 7 % (PATTERN * PATTERN)) as f32 * 0.61;
+    std::array::from_fn(|i| Vec2::from_angle(start + i as f32 * 2.399_963) * ((i as f32 + 0.5) / LOOKS as f32).sqrt())
+}
+
+/// The first sample of each pixel; depths in pixels.
+struct Coarse {
+    size: [usize; 2],
+    owner: Vec<u32>,
+    depth: Vec<f32>,
+}
+
+impl Coarse {
+    /// How much of the sky over `p` is hidden by what is seen at a part of the distance `near` from it.
+    fn hidden(&self, p: Vec3, n: Vec3, step: Vec2, near: f32) -> f32 {
+        let at = p.truncate() + step * near + 0.5;
+        if at.min_element() < 0.0 || at.x >= self.size[0] as f32 || at.y >= self.size[1] as f32 {
+            return 0.0;
+        }
+        let (column, row) = (at.x as usize, at.y as usize);
+        let depth = self.depth[row * self.size[0] + column];
+        if depth == f32::NEG_INFINITY {
+            return 0.0;
+        }
+        let v = Vec3::new(column as f32, row as f32, depth) - p;
+        ((v.dot(n) - 0.25).max(0.0) * near / (v.length_squared() + 0.05 * near * near)).min(2.5)
+    }
+
+    /// The average over the pixels about one that share the pattern and show the same body.
+    fn even(&self, rough: &[Seen], x: usize, y: usize) -> Seen {
+        let [width, height] = self.size;
+        let owner = self.owner[y * width + x];
+        if owner == NOTHING {
+            return rough[y * width + x];
+        }
+        let about = |x: usize, end: usize| (x + 1).saturating_sub(PATTERN / 2)..(x + 1 + PATTERN / 2).min(end);
+        let (mut sky, mut sun, mut count) = (0.0, 0.0, 0.0);
+        for row in about(y, height) {
+            for at in about(x, width).map(|column| row * width + column) {
+                if self.owner[at] == owner {
+                    (sky, sun, count) = (sky + rough[at].sky, sun + rough[at].sun, count + 1.0);
+                }
             }
         }
+        Seen { sky: sky / count, sun: sun / count }
     }
-    Seen { sky: sum.sky / count, sun: sum.sun / count }
 }
 
 /// The median radius of the bounded bodies.

@@ -67,7 +67,8 @@ pub(super) fn chains(picture: &Picture, view: &View) -> Vec<(Solid, u32)> {
 
 /// Whether a body can be drawn at all.
 pub(super) fn is_there(body: &Body) -> bool {
-    body.position.iter().chain(&body.rotation).all(|x| x.is_finite()) && body.opacity > 0.0
+    let radius = if let Shape::Ball { radius } = body.shape { radius } else { 0.0 };
+    body.position.iter().chain(&body.rotation).chain([&radius]).all(|x| x.is_finite()) && body.opacity > 0.0
 }
 
 pub(super) fn rotation(body: &Body) -> DMat3 {

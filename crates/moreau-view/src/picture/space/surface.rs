@@ -58,6 +58,15 @@ impl Surface {
             .for_each(|(i, ((depth, normal), owner))| each(&mut Band { top: i * TILE, width, depth, normal, owner }));
     }
 
+    /// Whether a square of samples shows nothing, or one place of one surface: the same owner and, where `flat`, the same normal.
+    pub(super) fn is_even(&self, first: [usize; 2], side: usize, flat: impl Fn(u32) -> bool) -> bool {
+        let at = |row: usize| (first[1] + row) * self.size[0] + first[0];
+        let owner = self.owner[at(0)];
+        let row = |row: usize| at(row)..at(row) + side;
+        (0..side).all(|y| self.owner[row(y)].iter().all(|&o| o == owner))
+            && (!flat(owner) || (0..side).all(|y| self.normal[row(y)].iter().all(|&n| n == self.normal[at(0)])))
+    }
+
     pub(super) fn normal(&self, sample: usize) -> Vec3 {
         let [x, y] = self.normal[sample].map(|n| f32::from(n) / 32767.0);
         Vec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
