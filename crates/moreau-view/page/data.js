@@ -55,7 +55,7 @@ function frameAt(buffer, offset, n, m, dimension) {
         impulse: floats(m * dimension), gap: floats(m), status: new Uint8Array(buffer, at, m),
     });
     at += 4 * Math.ceil(m / 4);
-    frame.contactBytes = new Uint8Array(buffer, frame.contactsAt, at - frame.contactsAt);
+    frame.contactWords = new Uint32Array(buffer, frame.contactsAt, (at - frame.contactsAt) / 4);
     frame.end = at;
     return frame;
 }

@@ -151,7 +151,7 @@ class Page {
     forces(on) {
         this.picture.chainsShown = on;
         byId("forces").checked = on;
-        byId("faded").disabled = !on;
+        byId("faint").hidden = !on;
         this.picture.fill();
         this.changed();
     }
@@ -163,6 +163,19 @@ class Page {
         const origin = selection.lost ?? { frame: selection.from, index: selection.index };
         const index = sameContact(origin.frame, origin.index, frame, this.run.dimension);
         this.picture.selection = { kind: "contact", index, from: frame, lost: index < 0 ? origin : undefined };
+    }
+
+    /** A ring around the selected body, which may be behind others. */
+    ring() {
+        const { camera, selection, canvas, run } = this.picture, mark = byId("ring");
+        const place = selection.kind === "body" && camera.project(this.picker.position(selection.index));
+        mark.hidden = !place || !Number.isFinite(place[0]) || !(run.bodies.radius[selection.index] > 0);
+        if (mark.hidden) return;
+        const depth = camera.flat ? camera.distance : dot(sub(camera.eye, this.picker.position(selection.index)), camera.back);
+        const h = canvas.clientHeight, half = (run.bodies.radius[selection.index] * h) / (2 * SLOPE * depth) + 5;
+        const x = 0.5 * (1 + place[0]) * canvas.clientWidth - half, y = 0.5 * (1 - place[1]) * h - half;
+        mark.style.width = mark.style.height = `${(2 * half).toFixed(1)}px`;
+        mark.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
 
     /** Something that is shown beside the picture has changed. */
@@ -198,6 +211,7 @@ class Page {
         if (!picture.dirty) return;
         if (picture.gl) {
             picture.draw();
+            this.ring();
             pace.note(now);
         }
         picture.dirty = false;
@@ -214,7 +228,6 @@ class Page {
             picture.faded = event.target.checked;
             picture.dirty = true;
         });
-        byId("faded").disabled = true;
         const reset = () => {
             picture.camera.azimuth = picture.camera.flat ? 0 : -0.6;
             picture.camera.elevation = picture.camera.flat ? 0 : 0.32;

@@ -66,7 +66,9 @@ out vec3 seen;
 void main() {
     vec3 p = place(body);
     if (absent(p)) { ${NOWHERE} return; }
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    // Corners of the smallest triangle around the circle of radius 1.
+    int k = gl_VertexID % 3;
+    vec2 corner = k == 0 ? vec2(0.0, 2.0) : vec2(k == 1 ? -1.7320509 : 1.7320509, -1.0);
     q = attitude(body);
     tint = tintOf(body);
     centre = (view * vec4(p, 1.0)).xyz;
@@ -153,7 +155,7 @@ flat out vec3 tint;
 void main() {
     vec3 p = place(body);
     if (absent(p)) { ${NOWHERE} return; }
-    tint = body == chosen ? line : mix(line, ground, fade);
+    tint = flatScene ? mix(line, ground, 0.75 * fade) : 0.4 * tintOf(body) + 0.6 * fade * ground;
     gl_Position = projection * (view * vec4(p + turned(attitude(body), corner), 1.0));
     gl_Position.z -= 3e-4 * gl_Position.w; // in front of its faces
 }`,
