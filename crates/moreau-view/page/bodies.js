@@ -1,4 +1,4 @@
-// Draws balls and bodies with polygons, all of one kind with one call.
+// Draws balls and bodies with polygons, all of one kind with one call. A ball is a triangle in which its sphere is found pixel by pixel.
 
 class Bodies {
     constructor(gl, run) {

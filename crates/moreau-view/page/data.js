@@ -48,14 +48,14 @@ function frameAt(buffer, offset, n, m, dimension) {
         velocity: floats(n * dimension),
         spin: floats(n * (dimension === 3 ? 3 : 1)),
         contacts: m,
-        contactsAt: at,
     };
+    const start = at;
     Object.assign(frame, {
         a: indices(m), b: indices(m), point: floats(m * dimension), normal: floats(m * dimension),
         impulse: floats(m * dimension), gap: floats(m), status: new Uint8Array(buffer, at, m),
     });
     at += 4 * Math.ceil(m / 4);
-    frame.contactWords = new Uint32Array(buffer, frame.contactsAt, (at - frame.contactsAt) / 4);
+    frame.contactWords = new Uint32Array(buffer, start, (at - start) / 4);
     frame.end = at;
     return frame;
 }

@@ -8,14 +8,20 @@ class Program {
         const head = `#version 300 es\n${flat ? "#define FLAT\n" : ""}${COMMON}${withBodies ? BODIES : ""}`;
         this.gl = gl;
         this.program = gl.createProgram();
+        this.shaders = [];
         for (const [kind, text] of [[gl.VERTEX_SHADER, source.vertex], [gl.FRAGMENT_SHADER, source.fragment]]) {
             const shader = gl.createShader(kind);
             gl.shaderSource(shader, head + text);
             gl.compileShader(shader);
             gl.attachShader(this.program, shader);
-            this.shaders = [...(this.shaders ?? []), shader];
+            this.shaders.push(shader);
         }
         gl.linkProgram(this.program);
+    }
+
+    /** What waits for the compiler is left until a program is needed, so that all are compiled beside each other. */
+    finish() {
+        const { gl } = this;
         if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) {
             const notes = this.shaders.map((shader) => gl.getShaderInfoLog(shader)).join("\n");
             throw new Error(`${gl.getProgramInfoLog(this.program)}\n${notes}`);
@@ -29,6 +35,7 @@ class Program {
     }
 
     use() {
+        if (!this.places) this.finish();
         this.gl.useProgram(this.program);
         return this;
     }
