@@ -10,23 +10,58 @@ async function readMeta() {
     return (await fetch("meta.json", { cache: "no-store" })).json();
 }
 
-/** The deflated bytes of block `k`. */
-async function deflated(k, served) {
-    if (served) {
-        const answer = await fetch(`block/${k}`, { cache: "no-store" });
-        if (!answer.ok) throw new Error(`the server has no block ${k}`);
-        return new Uint8Array(await answer.arrayBuffer());
-    }
-    const text = document.getElementById(`block-${k}`).textContent.trim();
-    if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-    const binary = atob(text), result = new Uint8Array(binary.length);
-    for (let i = 0; i < binary.length; i++) result[i] = binary.charCodeAt(i);
-    return result;
+/** The deflated bytes of block `k`, or where the page holds them their text. */
+async function packedBlock(k, served) {
+    if (!served) return document.getElementById(`block-${k}`).textContent.trim();
+    const answer = await fetch(`block/${k}`, { cache: "no-store" });
+    if (!answer.ok) throw new Error(`the server has no block ${k}`);
+    return new Uint8Array(await answer.arrayBuffer());
 }
 
-async function inflated(packed) {
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+/** The bytes of a block. This function must need nothing of the page: the decoder takes its text. */
+async function unpacked(packed) {
+    let bytes = packed;
+    if (typeof packed === "string") {
+        const binary = atob(packed);
+        bytes = new Uint8Array(binary.length);
+        for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
+    }
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
     return new Response(stream).arrayBuffer();
+}
+
+/** Unpacks blocks in a thread beside the page's, so that pictures do not wait; in the page's own where there is no such thread. */
+class Decoder {
+    constructor() {
+        this.waiting = new Map();
+        this.asked = 0;
+    }
+
+    start() {
+        const answer = "async ({ data: [id, packed] }) => { try { const bytes = await unpacked(packed); postMessage([id, bytes], [bytes]); } " +
+            "catch (error) { postMessage([id, null, error.message]); } }";
+        this.address = URL.createObjectURL(new Blob([`${unpacked}\nonmessage = ${answer};`], { type: "text/javascript" }));
+        this.worker = new Worker(this.address);
+        this.worker.onmessage = ({ data: [id, bytes, complaint] }) => {
+            const { done, failed } = this.waiting.get(id);
+            this.waiting.delete(id);
+            bytes ? done(bytes) : failed(new Error(complaint));
+        };
+        this.worker.onerror = () => {
+            this.worker = null;
+            for (const { packed, done, failed } of this.waiting.values()) unpacked(packed).then(done, failed);
+            this.waiting.clear();
+        };
+    }
+
+    unpack(packed) {
+        if (this.worker === undefined) this.start();
+        if (!this.worker) return unpacked(packed);
+        return new Promise((done, failed) => {
+            this.waiting.set(++this.asked, { packed, done, failed });
+            this.worker.postMessage([this.asked, packed]);
+        });
+    }
 }
 
 /** Arrays of one frame, as views of its block's bytes from `offset` on; `end` is where the next frame begins. */
@@ -68,6 +103,7 @@ class Run {
         this.n = meta.bodies.radius.length;
         this.blocks = new Map(); // in the order of their last use
         this.pending = new Map();
+        this.decoder = new Decoder();
         this.renew(meta);
     }
 
@@ -117,7 +153,9 @@ class Run {
 
     async decode(k) {
         const { first, frames: count } = this.meta.blocks[k];
-        const buffer = await inflated(await deflated(k, this.served));
+        const packed = await packedBlock(k, this.served);
+        // The first block is waited for in any case, and a thread takes a while to start.
+        const buffer = await (this.blocks.size ? this.decoder.unpack(packed) : unpacked(packed));
         const frames = [];
         for (let i = 0, offset = 0; i < count; i++) {
             frames.push(frameAt(buffer, offset, this.n, this.meta.frames.contacts[first + i], this.dimension));

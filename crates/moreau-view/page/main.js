@@ -7,18 +7,21 @@ function tell(error) {
     console.error(error);
 }
 
-/** Centre and radius of where the free bodies are in a frame, without the farthest few of many, and the widest part of it. */
+/** Centre and radius of where the free bodies are in some frames, without the farthest few of many, and half the width. */
 function extent(run, frames) {
     const D = run.dimension, { radius, free } = run.bodies, low = [0, 0, 0], high = [0, 0, 0];
-    const some = radius.some((r, i) => r > 0 && free[i]), counts = (i) => radius[i] > 0 && (free[i] || !some);
-    const largest = radius.reduce((most, r, i) => (counts(i) && r > most ? r : most), 0);
+    const bounded = Array.from(radius.keys()).filter((i) => radius[i] > 0), moving = bounded.filter((i) => free[i]);
+    const counted = moving.length ? moving : bounded;
+    const largest = counted.reduce((most, i) => Math.max(most, radius[i]), 0);
     for (let k = 0; k < D; k++) {
-        const places = Float32Array.from(frames.flatMap(({ position }) =>
-            Array.from(radius.keys()).filter((i) => counts(i) && Number.isFinite(position[D * i])).map((i) => position[D * i + k]))).sort();
-        if (!places.length) continue;
-        const out = places.length > 200 ? Math.floor(places.length / 100) : 0;
-        low[k] = places[out] - largest;
-        high[k] = places[places.length - 1 - out] + largest;
+        const places = new Float32Array(counted.length * frames.length);
+        let count = 0;
+        for (const { position } of frames)
+            for (const i of counted) if (Number.isFinite(position[D * i + k])) places[count++] = position[D * i + k];
+        if (!count) continue;
+        const sorted = places.subarray(0, count).sort(), out = count > 200 ? Math.floor(count / 100) : 0;
+        low[k] = sorted[out] - largest;
+        high[k] = sorted[count - 1 - out] + largest;
     }
     const half = scale(sub(high, low), 0.5);
     return [scale(add(low, high), 0.5), (D === 2 ? half[1] : norm(half)) || 1, half[0] || 1];
@@ -63,8 +66,9 @@ class Page {
         showHeader(meta);
         this.toggleTheme = listenTheme(() => this.themed());
         if (!this.run.frames) await this.firstFrame();
+        this.run.ahead(0); // is decoded while programs are compiled
         this.picture = new Picture(byId("picture"), this.run);
-        if (!this.picture.gl) this.note("This browser has no WebGL 2, so there is no picture; charts and numbers are below or beside.");
+        if (!this.picture.gl) this.note("This browser has no WebGL 2, so there is no picture; charts and numbers are there all the same.");
         this.playback = new Playback(this.run, this.picture);
         this.playback.changed = () => this.changed();
         this.picker = new Picker(this.picture);

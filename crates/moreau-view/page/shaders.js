@@ -46,11 +46,12 @@ vec3 turned(vec4 q, vec3 v) {
 vec3 turnedBack(vec4 q, vec3 v) { return turned(flatScene ? vec4(q.x, -q.y, 0.0, 0.0) : vec4(-q.xyz, q.w), v); }
 bool isFree(int i) { return texelFetch(facts, cell(i), 0).y > 0.5; }
 vec3 tintOf(int i) {
+    vec3 faint = mix(ground, still, 0.4);
     if (i == chosen) return mark;
-    if (!isFree(i)) return mix(still, ground, fade);
+    if (!isFree(i)) return mix(still, faint, fade);
     float value = (texelFetch(values, cell(i), 0).x - low) / (high - low);
     vec3 tint = texelFetch(ramp, ivec2(int(clamp(value, 0.0, 1.0) * 255.0 + 0.5), 0), 0).rgb;
-    return mix(tint, ground, fade);
+    return mix(tint, faint, fade);
 }`;
 
 const NOWHERE = "gl_Position = vec4(2.0, 2.0, 2.0, 1.0);";
@@ -155,7 +156,7 @@ flat out vec3 tint;
 void main() {
     vec3 p = place(body);
     if (absent(p)) { ${NOWHERE} return; }
-    tint = flatScene ? mix(line, ground, 0.75 * fade) : 0.4 * tintOf(body) + 0.6 * fade * ground;
+    tint = flatScene ? mix(line, ground, 0.75 * fade) : 0.45 * tintOf(body);
     gl_Position = projection * (view * vec4(p + turned(attitude(body), corner), 1.0));
     gl_Position.z -= 3e-4 * gl_Position.w; // in front of its faces
 }`,

@@ -8,14 +8,13 @@ const worse = (a, b) => (["good", "fair", "bad"].indexOf(a) > ["good", "fair", "
 const grade = (x, good, fair) => (x <= good ? "good" : x <= fair ? "fair" : "bad");
 
 function convergence({ steps, unconverged_steps: bad }) {
-    const all = steps === 1 ? "The one step" : `All ${plural(steps, "step")}`;
-    if (!bad) return ["good", "Convergence", `${all} converged`];
-    return [grade(bad, 0, 0.01 * steps), "Convergence", `${bad} of ${plural(steps, "step")} did not converge`];
+    if (!bad) return ["good", "Convergence", `in all ${plural(steps, "step")}`];
+    return [grade(bad, 0, 0.01 * steps), "Convergence", `not in ${bad} of ${plural(steps, "step")}`];
 }
 
 function residual(verdict, { tolerance, criterion }) {
     const worst = criterion === "scaled_residual" ? verdict.scaled_residual_max : verdict.eps_glob_max;
-    return [grade(worst, tolerance, 10 * tolerance), "Worst residual", `${figures(worst)} (tolerance ${figures(tolerance)})`];
+    return [grade(worst, tolerance, 10 * tolerance), "Residual", `≤ ${figures(worst)} (tolerance ${figures(tolerance)})`];
 }
 
 function penetration(verdict, bodies) {
@@ -25,13 +24,13 @@ function penetration(verdict, bodies) {
     });
     const deep = Math.max(verdict.penetration_max ?? NaN, 0);
     const part = Number.isFinite(least) ? ` (${figures(100 * (deep / least), 2)} % of the least radius)` : "";
-    return [grade(deep / least, 0.01, 0.05), "Deepest overlap", `${quantity(deep, "m")}${part}`];
+    return [grade(deep / least, 0.01, 0.05), "Overlap", `≤ ${quantity(deep, "m")}${part}`];
 }
 
 function balance({ balance_error_max: error, energy_scale: whole }) {
     const part = whole > 0 ? error / whole : error;
     const words = whole > 0 ? `closes to ${figures(100 * part, 2)} %` : `is off by ${quantity(error, "J")}`;
-    return [grade(part, 1e-3, 1e-2), "Energy balance", words];
+    return [grade(part, 1e-3, 1e-2), "Energy", `balance ${words}`];
 }
 
 const OVERALL = { good: "All checks passed", fair: "Passed with reservations", bad: "Not to be relied on" };
