@@ -10,25 +10,36 @@ class Camera {
         [this.east, this.north] = tangents(this.up);
         this.aspect = 1;
         this.touched = false;
-        this.fit([0, 0, 0], 1, 1);
-        this.azimuth = this.flat ? 0 : -0.6;
-        this.elevation = this.flat ? 0 : 0.32;
+        this.face();
+        this.fit([0, 0, 0], 1, [1, 1, 1]);
+    }
+
+    /** Shows the box around `target` that is `half` to each side; `radius` is the size of all that is there. */
+    fit(target, radius, half) {
+        this.home = { target, radius, half };
+        this.target = target;
+        this.radius = radius;
+        this.distance = 1;
+        this.update();
+        let need = 0;
+        for (let k = 0; k < 8; k++) {
+            const corner = half.map((x, i) => ((k >> i) & 1 ? x : -x)), beside = dot(corner, this.right) / this.aspect;
+            const near = this.flat ? 0 : dot(corner, this.back);
+            need = Math.max(need, near + Math.max(Math.abs(beside), Math.abs(dot(corner, this.above))) / SLOPE);
+        }
+        this.distance = 1.14 * need || 1;
         this.update();
     }
 
-    /** Shows all that lies within `radius` of `target`; a wide flat scene is `width` to each side. */
-    fit(target, radius, width) {
-        this.home = { target, radius, width };
-        this.target = target;
-        this.radius = radius;
-        const need = this.flat ? Math.max(radius, width / this.aspect) : radius / Math.min(1, this.aspect ** 0.8);
-        this.distance = (this.flat ? 1.12 * need : 1.02 * need) / SLOPE;
-        this.update();
+    /** Turns to where a run is first seen from. */
+    face() {
+        this.azimuth = this.flat ? 0 : -0.6;
+        this.elevation = this.flat ? 0 : 0.32;
     }
 
     refit() {
         this.touched = false;
-        this.fit(this.home.target, this.home.radius, this.home.width);
+        this.fit(this.home.target, this.home.radius, this.home.half);
     }
 
     update() {

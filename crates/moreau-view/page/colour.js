@@ -51,5 +51,5 @@ function namedBytes() {
 function themeColours() {
     const style = getComputedStyle(document.documentElement);
     const colour = (name) => fractions(style.getPropertyValue(name).trim());
-    return { ground: colour("--picture"), line: colour("--outline"), still: colour("--still"), mark: colour("--mark") };
+    return { ground: colour("--picture"), line: colour("--outline"), still: colour("--still"), faint: colour("--faint"), mark: colour("--mark") };
 }

@@ -7,7 +7,7 @@ function tell(error) {
     console.error(error);
 }
 
-/** Centre and radius of where the free bodies are in some frames, without the farthest few of many, and half the width. */
+/** Centre and radius of where the free bodies are in some frames, without the farthest few of many, and half the sides of the box around. */
 function extent(run, frames) {
     const D = run.dimension, { radius, free } = run.bodies, low = [0, 0, 0], high = [0, 0, 0];
     const bounded = Array.from(radius.keys()).filter((i) => radius[i] > 0), moving = bounded.filter((i) => free[i]);
@@ -24,7 +24,7 @@ function extent(run, frames) {
         high[k] = sorted[count - 1 - out] + largest;
     }
     const half = scale(sub(high, low), 0.5);
-    return [scale(add(low, high), 0.5), (D === 2 ? half[1] : norm(half)) || 1, half[0] || 1];
+    return [scale(add(low, high), 0.5), norm(half) || 1, half];
 }
 
 /** Adapts how sharp moving pictures are to how fast the machine draws them. */
@@ -100,9 +100,9 @@ class Page {
     }
 
     frameAll(frames) {
-        const [centre, radius, width] = extent(this.run, frames);
+        const [centre, radius, half] = extent(this.run, frames);
         this.picture.resize(false);
-        this.picture.camera.fit(centre, radius, width);
+        this.picture.camera.fit(centre, radius, half);
         this.picture.dirty = true;
     }
 
@@ -233,8 +233,7 @@ class Page {
             picture.dirty = true;
         });
         const reset = () => {
-            picture.camera.azimuth = picture.camera.flat ? 0 : -0.6;
-            picture.camera.elevation = picture.camera.flat ? 0 : 0.32;
+            picture.camera.face();
             picture.camera.refit();
             picture.dirty = true;
         };

@@ -6,7 +6,7 @@ precision highp float;
 precision highp int;
 precision highp sampler2D;
 uniform mat4 view, projection;
-uniform vec3 ground, line, still, mark;
+uniform vec3 ground, line, still, faint, mark;
 uniform float pixel, fade;
 #ifdef FLAT
 const bool flatScene = true;
@@ -46,7 +46,6 @@ vec3 turned(vec4 q, vec3 v) {
 vec3 turnedBack(vec4 q, vec3 v) { return turned(flatScene ? vec4(q.x, -q.y, 0.0, 0.0) : vec4(-q.xyz, q.w), v); }
 bool isFree(int i) { return texelFetch(facts, cell(i), 0).y > 0.5; }
 vec3 tintOf(int i) {
-    vec3 faint = mix(ground, still, 0.4);
     if (i == chosen) return mark;
     if (!isFree(i)) return mix(still, faint, fade);
     float value = (texelFetch(values, cell(i), 0).x - low) / (high - low);

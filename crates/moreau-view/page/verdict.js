@@ -23,7 +23,7 @@ function penetration(verdict, bodies) {
         if (r > 0 && bodies.free[i]) least = Math.min(least, r);
     });
     const deep = Math.max(verdict.penetration_max ?? NaN, 0);
-    const part = Number.isFinite(least) ? ` (${figures(100 * (deep / least), 2)} % of the least radius)` : "";
+    const part = Number.isFinite(least) ? ` (${figures(100 * (deep / least), 2)} % of a radius)` : "";
     return [grade(deep / least, 0.01, 0.05), "Overlap", `≤ ${quantity(deep, "m")}${part}`];
 }
 
