@@ -33,15 +33,15 @@ class Pace {
         this.picture = picture;
         this.gaps = new Float32Array(40);
         this.count = 0;
-        this.last = 0;
+        this.last = NaN;
         this.motion = -1e9;
     }
 
-    /** Notes a picture that was drawn at `now`. Gaps of a second are pauses, not slowness. */
+    /** Notes a picture that was drawn at `now`; after a rest (NaN) there is no gap to count. */
     note(now) {
         const gap = now - this.last;
         this.last = now;
-        if (gap > 1000) return;
+        if (Number.isNaN(gap)) return;
         this.gaps[this.count++ % this.gaps.length] = gap;
         if (this.count % 12) return;
         const { picture } = this, rate = this.fps();
@@ -212,7 +212,7 @@ class Page {
         playback.advance(now);
         if (playback.playing || byId("picture").classList.contains("dragging")) pace.motion = now;
         picture.resize(now - pace.motion < 300);
-        if (!picture.dirty) return;
+        if (!picture.dirty) return void (pace.last = NaN);
         if (picture.gl) {
             picture.draw();
             this.ring();

@@ -16,20 +16,21 @@ function facets(shape) {
     const corners = [], normals = [], edges = new Map();
     for (const polygon of shape.polygons) {
         const points = polygon.map((i) => space[i]);
-        const n = polygon.length > 2 ? unit(areaNormal(points.map((p) => sub(p, points[0])))) : [0, 0, 1];
+        const n = polygon.length > 2 ? unit(areaNormal(points.map((p) => sub(p, points[0])))) : null;
         for (let k = 1; k + 1 < points.length; k++) {
             corners.push(...points[0], ...points[k], ...points[k + 1]);
             normals.push(...n, ...n, ...n);
         }
         polygon.forEach((i, k) => {
-            const j = polygon[(k + 1) % polygon.length], key = i < j ? `${i} ${j}` : `${j} ${i}`;
-            if (!edges.has(key)) edges.set(key, { i, j, normals: [] });
-            if (polygon.length > 2) edges.get(key).normals.push(n);
+            const j = polygon[(k + 1) % polygon.length], key = Math.min(i, j) * space.length + Math.max(i, j);
+            // An edge is drawn unless a second face goes on from the first nearly as flat.
+            const first = edges.get(key);
+            edges.set(key, first && n && dot(first, n) > SHARP ? "flat" : n);
         });
     }
     const lines = [];
-    for (const { i, j, normals: [first, second] } of edges.values())
-        if (!first || !second || dot(first, second) < SHARP) lines.push(...space[i], ...space[j]);
+    for (const [key, kind] of edges)
+        if (kind !== "flat") lines.push(...space[Math.floor(key / space.length)], ...space[key % space.length]);
     return { corners, normals, lines };
 }
 

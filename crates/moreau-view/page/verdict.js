@@ -36,6 +36,7 @@ function balance({ balance_error_max: error, energy_scale: whole }) {
 const OVERALL = { good: "All checks passed", fair: "Passed with reservations", bad: "Not to be relied on" };
 
 function showVerdict({ verdict, solver, bodies, live }) {
+    if (!verdict.steps) return byId("verdict").replaceChildren(element("p", {}, "No step has been made."));
     const parts = [convergence(verdict), residual(verdict, solver), penetration(verdict, bodies), balance(verdict)];
     const whole = parts.map(([word]) => word).reduce(worse);
     const left = verdict.planned_steps - verdict.steps;

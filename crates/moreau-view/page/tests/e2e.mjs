@@ -125,6 +125,13 @@ async function compares(page) {
     return worst;
 }
 
+/** Of many frames that are asked for at once the last one is shown. */
+async function hurries(page, last) {
+    await page.evaluate((n) => Promise.all(Array.from({ length: n + 1 }, (_, i) => window.moreau.setFrame(n - i))), last);
+    assert.equal(await ask(page, "frame()"), 0);
+    assert.ok(await page.evaluate(() => window.moreau.page.picture.frame === window.moreau.page.run.decoded(0)));
+}
+
 /** Turning, moving and zooming change what is seen; fitting brings it back. */
 async function turns(page) {
     const box = await page.locator("#picture").boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2;
@@ -148,7 +155,7 @@ async function turns(page) {
 }
 
 async function keys(page) {
-    await page.locator("#picture").focus();
+    await page.locator("#scrubber").focus(); // which keeps its own keys only
     const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
     const before = await theme();
     await page.keyboard.press("t");
@@ -171,6 +178,8 @@ async function drive(browser) {
     const last = await plays(page);
     await scrubs(page, last);
     await charts(page);
+    await hurries(page, last);
+    await ask(page, `setFrame(${Math.round(0.9 * last)})`);
     await colours(page);
     const body = await clicksBody(page);
     await ask(page, `setFrame(${last})`);
