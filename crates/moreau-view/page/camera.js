@@ -102,3 +102,23 @@ class Camera {
         return [this.eye, unit(sub(side, this.back))];
     }
 }
+
+/** Centre and radius of where the free bodies are in some frames, without the farthest few of many, and half the sides of the box around. */
+function extent(run, frames) {
+    const D = run.dimension, { radius, free } = run.bodies, low = [0, 0, 0], high = [0, 0, 0];
+    const bounded = Array.from(radius.keys()).filter((i) => radius[i] > 0), moving = bounded.filter((i) => free[i]);
+    const counted = moving.length ? moving : bounded;
+    const largest = counted.reduce((most, i) => Math.max(most, radius[i]), 0);
+    for (let k = 0; k < D; k++) {
+        const places = new Float32Array(counted.length * frames.length);
+        let count = 0;
+        for (const { position } of frames)
+            for (const i of counted) if (Number.isFinite(position[D * i + k])) places[count++] = position[D * i + k];
+        if (!count) continue;
+        const sorted = places.subarray(0, count).sort(), out = count > 200 ? Math.floor(count / 100) : 0;
+        low[k] = sorted[out] - largest;
+        high[k] = sorted[count - 1 - out] + largest;
+    }
+    const half = scale(sub(high, low), 0.5);
+    return [scale(add(low, high), 0.5), norm(half) || 1, half];
+}

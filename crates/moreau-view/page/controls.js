@@ -95,7 +95,7 @@ function showLegend(picture) {
             element("div", { class: "ends" }, element("span", {}, figures(scalars.low)), element("span", {}, `≥ ${figures(scalars.high)}`)));
     if (chainsShown && chains)
         rows.push(element("div", { class: "names" }, ...STATUS.map((name, i) => swatch(STATUS_COLOURS[i], name))),
-            element("div", { class: "ends" }, `full width: ${figures(chains.reference, 2)} N s`));
+            element("div", { class: "ends" }, `full width: ${chains.reference > 1e-29 ? figures(chains.reference, 2) : "–"} N s`));
     byId("legend").replaceChildren(...rows);
 }
 
