@@ -18,7 +18,7 @@ float pixelAt(float z) { return flatScene ? pixel : -z * pixel; }
 vec3 lit(vec3 tint, vec3 n) {
     if (flatScene) return tint;
     float key = max(dot(n, vec3(-0.37, 0.66, 0.65)), 0.0);
-    return tint * (0.44 + 0.1 * n.y + 0.5 * key) + vec3(0.05) * pow(key, 12.0);
+    return tint * (0.52 + 0.12 * n.y + 0.48 * key) + vec3(0.05) * pow(key, 12.0);
 }`;
 
 const BODIES = `
@@ -117,7 +117,7 @@ void main() {
     float spot = smoothstep(0.88 - soft, 0.88 + soft, m.z);
     float marked = max(belt, spot) * smoothstep(4.0, 9.0, 1.0 / px);
     vec3 painted = tint * (1.0 - 0.3 * marked);
-    colour = vec4(lit(painted, n) * mix(0.62, 1.0, smoothstep(0.0, 0.55, depth)), inside);
+    colour = vec4(lit(painted, n) * mix(0.6, 1.0, smoothstep(0.0, 0.5, depth)), inside);
     float z = projection[2][2] * hit.z + projection[3][2];
     gl_FragDepth = 0.5 + 0.5 * z / -hit.z;
 }`,

@@ -5,7 +5,7 @@ import { writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { assemble } from "./assemble.mjs";
 
-const BLOCK_BYTES = 4e6;
+const BLOCK_BYTES = Number(process.env.BLOCK_BYTES ?? 4e6);
 
 /** Numbers from 0 to 1 that are the same each time. */
 function random(seed) {
