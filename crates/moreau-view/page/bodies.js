@@ -1,4 +1,4 @@
-// Draws balls and bodies with polygons, all of one kind with one call.
+// Draws balls and bodies with polygons, all of one kind with one call. A ball is a triangle in which its sphere is found pixel by pixel.
 
 class Bodies {
     constructor(gl, run) {
@@ -15,16 +15,15 @@ class Bodies {
         const { gl } = this, { shapes, bodies } = run.meta;
         const index = [], radius = [];
         bodies.shape.forEach((s, i) => {
-            if (shapes[s].ball) {
-                index.push(i);
-                radius.push(shapes[s].ball);
-            }
+            if (!shapes[s].ball) return;
+            index.push(i, i, i);
+            radius.push(shapes[s].ball, shapes[s].ball, shapes[s].ball);
         });
         this.balls = gl.createVertexArray();
-        this.ballCount = index.length;
+        this.ballCorners = index.length;
         gl.bindVertexArray(this.balls);
-        attribute(gl, 0, Int32Array.from(index), 1, 1);
-        attribute(gl, 1, Float32Array.from(radius), 1, 1);
+        attribute(gl, 0, Int32Array.from(index), 1, 0);
+        attribute(gl, 1, Float32Array.from(radius), 1, 0);
         gl.bindVertexArray(null);
     }
 
@@ -58,11 +57,11 @@ class Bodies {
             set(this.mesh.use());
             for (const part of this.parts) this.drawPart(gl.TRIANGLES, part.faces, part.corners, part.instances);
         }
-        if (this.ballCount) {
+        if (this.ballCorners) {
             set(this.ball.use());
             this.ball.number("smoothEdges", smooth ? 1 : 0);
             if (smooth && !this.flat) gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-            this.drawPart(gl.TRIANGLE_STRIP, this.balls, 4, this.ballCount);
+            this.drawPart(gl.TRIANGLES, this.balls, this.ballCorners, 0);
             gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
         }
         if (this.parts.length) {

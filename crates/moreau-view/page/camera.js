@@ -10,25 +10,36 @@ class Camera {
         [this.east, this.north] = tangents(this.up);
         this.aspect = 1;
         this.touched = false;
-        this.fit([0, 0, 0], 1, 1);
-        this.azimuth = this.flat ? 0 : -0.6;
-        this.elevation = this.flat ? 0 : 0.32;
+        this.face();
+        this.fit([0, 0, 0], 1, [1, 1, 1]);
+    }
+
+    /** Shows the box around `target` that is `half` to each side; `radius` is the size of all that is there. */
+    fit(target, radius, half) {
+        this.home = { target, radius, half };
+        this.target = target;
+        this.radius = radius;
+        this.distance = 1;
+        this.update();
+        let need = 0;
+        for (let k = 0; k < 8; k++) {
+            const corner = half.map((x, i) => ((k >> i) & 1 ? x : -x)), beside = dot(corner, this.right) / this.aspect;
+            const near = this.flat ? 0 : dot(corner, this.back);
+            need = Math.max(need, near + Math.max(Math.abs(beside), Math.abs(dot(corner, this.above))) / SLOPE);
+        }
+        this.distance = 1.14 * need || 1;
         this.update();
     }
 
-    /** Shows all that lies within `radius` of `target`; a wide flat scene is `width` to each side. */
-    fit(target, radius, width) {
-        this.home = { target, radius, width };
-        this.target = target;
-        this.radius = radius;
-        const need = this.flat ? Math.max(radius, width / this.aspect) : radius / Math.min(1, this.aspect ** 0.8);
-        this.distance = (this.flat ? 1.12 * need : 1.02 * need) / SLOPE;
-        this.update();
+    /** Turns to where a run is first seen from. */
+    face() {
+        this.azimuth = this.flat ? 0 : -0.6;
+        this.elevation = this.flat ? 0 : 0.32;
     }
 
     refit() {
         this.touched = false;
-        this.fit(this.home.target, this.home.radius, this.home.width);
+        this.fit(this.home.target, this.home.radius, this.home.half);
     }
 
     update() {
@@ -90,4 +101,24 @@ class Camera {
         if (this.flat) return [add(this.eye, scale(side, this.distance)), [0, 0, -1]];
         return [this.eye, unit(sub(side, this.back))];
     }
+}
+
+/** Centre and radius of where the free bodies are in some frames, without the farthest few of many, and half the sides of the box around. */
+function extent(run, frames) {
+    const D = run.dimension, { radius, free } = run.bodies, low = [0, 0, 0], high = [0, 0, 0];
+    const bounded = Array.from(radius.keys()).filter((i) => radius[i] > 0), moving = bounded.filter((i) => free[i]);
+    const counted = moving.length ? moving : bounded;
+    const largest = counted.reduce((most, i) => Math.max(most, radius[i]), 0);
+    for (let k = 0; k < D; k++) {
+        const places = new Float32Array(counted.length * frames.length);
+        let count = 0;
+        for (const { position } of frames)
+            for (const i of counted) if (Number.isFinite(position[D * i + k])) places[count++] = position[D * i + k];
+        if (!count) continue;
+        const sorted = places.subarray(0, count).sort(), out = count > 200 ? Math.floor(count / 100) : 0;
+        low[k] = sorted[out] - largest;
+        high[k] = sorted[count - 1 - out] + largest;
+    }
+    const half = scale(sub(high, low), 0.5);
+    return [scale(add(low, high), 0.5), norm(half) || 1, half];
 }

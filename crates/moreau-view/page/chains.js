@@ -1,17 +1,19 @@
 // Contacts as ribbons between the bodies that touch, as wide as the normal impulse is great. Ends at bodies that do not move are at the
-// point of contact. What the run wrote of the contacts is sent as it is.
+// point of contact. What the run wrote of the contacts is sent as it is. Nothing is drawn by instances: where processors draw, an instance
+// costs more than its corners.
+
+/** Words in a row of the texture of contacts; the program knows it too. */
+const CONTACT_ROW = 4096;
 
 class Chains {
     constructor(gl, run) {
         this.gl = gl;
         this.run = run;
         this.program = new Program(gl, CHAIN, run.dimension === 2);
-        this.array = gl.createVertexArray();
-        this.buffer = gl.createBuffer();
-        this.room = 0;
+        this.nothing = gl.createVertexArray();
         this.count = 0;
         this.colours = new Float32Array(STATUS_COLOURS.flatMap(fractions));
-        this.widest = this.medianRadius() * 0.55;
+        this.widest = this.medianRadius() * 0.4;
         this.reference = 1;
     }
 
@@ -33,22 +35,11 @@ class Chains {
         }
         this.reference = pressed ? Math.max((4 * sum) / pressed, 1e-30) : 1;
         if (!m) return;
-        gl.bindVertexArray(this.array);
-        gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-        if (frame.contactBytes.length > this.room) {
-            this.room = Math.ceil(1.5 * frame.contactBytes.length);
-            gl.bufferData(gl.ARRAY_BUFFER, this.room, gl.DYNAMIC_DRAW);
+        if (!(frame.contactWords.length <= this.texture?.room)) {
+            if (this.texture) gl.deleteTexture(this.texture.texture);
+            this.texture = new ArrayTexture(gl, Math.ceil(1.5 * frame.contactWords.length), 1, CONTACT_ROW, true);
         }
-        gl.bufferSubData(gl.ARRAY_BUFFER, 0, frame.contactBytes);
-        gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
-        gl.vertexAttribIPointer(1, 1, gl.UNSIGNED_INT, 0, 4 * m);
-        for (let i = 0; i < 3; i++) gl.vertexAttribPointer(2 + i, D, gl.FLOAT, false, 0, 8 * m + 4 * D * m * i);
-        gl.vertexAttribIPointer(5, 1, gl.UNSIGNED_BYTE, 0, 12 * m + 12 * D * m);
-        for (let i = 0; i < 6; i++) {
-            gl.enableVertexAttribArray(i);
-            gl.vertexAttribDivisor(i, 1);
-        }
-        gl.bindVertexArray(null);
+        this.texture.send(frame.contactWords);
     }
 
     draw(set, chosen) {
@@ -59,7 +50,11 @@ class Chains {
         program.vector("statusColours", this.colours);
         program.number("widest", this.widest);
         program.number("reference", this.reference);
-        gl.bindVertexArray(this.array);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+        program.integer("count", this.count);
+        gl.activeTexture(gl.TEXTURE0 + 7);
+        gl.bindTexture(gl.TEXTURE_2D, this.texture.texture);
+        program.integer("contacts", 7);
+        gl.bindVertexArray(this.nothing);
+        gl.drawArrays(gl.TRIANGLES, 0, 6 * this.count);
     }
 }

@@ -27,14 +27,15 @@ function fromLightness(lightness, chroma, hue) {
     });
 }
 
-/** 256 colours from dark violet to light yellow: lightness rises evenly, so that order is seen without hue. */
+/** Lightness, chroma and hue at even places: lightness rises evenly, so that order is seen without hue, and chroma stays what screens have. */
+const STOPS = [[0.3, 0.13, 305], [0.405, 0.12, 278], [0.51, 0.095, 238], [0.615, 0.095, 192], [0.72, 0.135, 158], [0.82, 0.165, 128], [0.92, 0.175, 105]];
+
+/** 256 colours from dark violet to light yellow. */
 function rampBytes() {
     const ramp = new Uint8Array(4 * 256);
     for (let i = 0; i < 256; i++) {
-        const x = i / 255;
-        const chroma = 0.1 + 0.06 * x + 0.05 * Math.sin(Math.PI * x) ** 2 * (x < 0.5 ? -0.6 : 0.2);
-        ramp.set(fromLightness(0.31 + 0.6 * x, chroma, 300 - 195 * x ** 1.05), 4 * i);
-        ramp[4 * i + 3] = 255;
+        const x = (i / 255) * (STOPS.length - 1), k = Math.min(Math.floor(x), STOPS.length - 2);
+        ramp.set([...fromLightness(...STOPS[k].map((y, j) => y + (x - k) * (STOPS[k + 1][j] - y))), 255], 4 * i);
     }
     return ramp;
 }
@@ -50,5 +51,5 @@ function namedBytes() {
 function themeColours() {
     const style = getComputedStyle(document.documentElement);
     const colour = (name) => fractions(style.getPropertyValue(name).trim());
-    return { ground: colour("--picture"), line: colour("--outline"), still: colour("--still"), mark: colour("--mark") };
+    return { ground: colour("--picture"), line: colour("--outline"), still: colour("--still"), faint: colour("--faint"), mark: colour("--mark") };
 }

@@ -45,14 +45,18 @@ function listenPicture(canvas, camera, changed, click) {
     }, { passive: false });
 }
 
+/** Keys that buttons, lists, boxes and sliders keep for themselves. */
+const KEPT = {
+    BUTTON: [" ", "Enter"], INPUT: [" "], RANGE: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"],
+    SELECT: [" ", "Enter", "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"],
+};
+
 /** What each key does, by the name that the browser gives it. */
 function listenKeys(actions) {
     document.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey || byId("keys").open) return;
         const { tagName, type } = event.target;
-        // Buttons, lists and sliders have keys of their own.
-        const own = { BUTTON: " Enter", SELECT: "ArrowUp ArrowDown ArrowLeft ArrowRight Home End  ", INPUT: type === "range" ? "ArrowLeft ArrowRight Home End" : " " }[tagName];
-        if (own?.includes(event.key)) return;
+        if (KEPT[type === "range" ? "RANGE" : tagName]?.includes(event.key)) return;
         const action = actions[event.key] ?? actions[event.key.toLowerCase()];
         if (!action) return;
         event.preventDefault();
@@ -91,7 +95,7 @@ function showLegend(picture) {
             element("div", { class: "ends" }, element("span", {}, figures(scalars.low)), element("span", {}, `≥ ${figures(scalars.high)}`)));
     if (chainsShown && chains)
         rows.push(element("div", { class: "names" }, ...STATUS.map((name, i) => swatch(STATUS_COLOURS[i], name))),
-            element("div", { class: "ends" }, `full width: ${figures(chains.reference, 2)} N s`));
+            element("div", { class: "ends" }, `full width: ${chains.reference > 1e-29 ? figures(chains.reference, 2) : "–"} N s`));
     byId("legend").replaceChildren(...rows);
 }
 

@@ -10,25 +10,6 @@ async function readMeta() {
     return (await fetch("meta.json", { cache: "no-store" })).json();
 }
 
-/** The deflated bytes of block `k`. */
-async function deflated(k, served) {
-    if (served) {
-        const answer = await fetch(`block/${k}`, { cache: "no-store" });
-        if (!answer.ok) throw new Error(`the server has no block ${k}`);
-        return new Uint8Array(await answer.arrayBuffer());
-    }
-    const text = document.getElementById(`block-${k}`).textContent.trim();
-    if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-    const binary = atob(text), result = new Uint8Array(binary.length);
-    for (let i = 0; i < binary.length; i++) result[i] = binary.charCodeAt(i);
-    return result;
-}
-
-async function inflated(packed) {
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return new Response(stream).arrayBuffer();
-}
-
 /** Arrays of one frame, as views of its block's bytes from `offset` on; `end` is where the next frame begins. */
 function frameAt(buffer, offset, n, m, dimension) {
     let at = offset;
@@ -48,14 +29,14 @@ function frameAt(buffer, offset, n, m, dimension) {
         velocity: floats(n * dimension),
         spin: floats(n * (dimension === 3 ? 3 : 1)),
         contacts: m,
-        contactsAt: at,
     };
+    const start = at;
     Object.assign(frame, {
         a: indices(m), b: indices(m), point: floats(m * dimension), normal: floats(m * dimension),
         impulse: floats(m * dimension), gap: floats(m), status: new Uint8Array(buffer, at, m),
     });
     at += 4 * Math.ceil(m / 4);
-    frame.contactBytes = new Uint8Array(buffer, frame.contactsAt, at - frame.contactsAt);
+    frame.contactWords = new Uint32Array(buffer, start, (at - start) / 4);
     frame.end = at;
     return frame;
 }
@@ -68,6 +49,7 @@ class Run {
         this.n = meta.bodies.radius.length;
         this.blocks = new Map(); // in the order of their last use
         this.pending = new Map();
+        this.decoder = new Decoder();
         this.renew(meta);
     }
 
@@ -117,7 +99,9 @@ class Run {
 
     async decode(k) {
         const { first, frames: count } = this.meta.blocks[k];
-        const buffer = await inflated(await deflated(k, this.served));
+        const packed = await packedBlock(k, this.served);
+        // The first block is waited for in any case, and a thread takes a while to start.
+        const buffer = await (this.blocks.size ? this.decoder.unpack(packed) : unpacked(packed));
         const frames = [];
         for (let i = 0, offset = 0; i < count; i++) {
             frames.push(frameAt(buffer, offset, this.n, this.meta.frames.contacts[first + i], this.dimension));

@@ -7,7 +7,7 @@ function figures(x, digits = 3) {
     const size = Math.abs(x);
     if (size >= 1e-3 && size < 1e6) return String(Number(x.toPrecision(Math.max(digits, Math.ceil(Math.log10(size) + 1e-9)))));
     const [mantissa, exponent] = x.toExponential(digits - 1).split("e");
-    return `${Number(mantissa)}·10${superscript(Number(exponent))}`;
+    return `${Number(mantissa) === 1 ? "" : `${Number(mantissa)}·`}10${superscript(Number(exponent))}`;
 }
 
 const superscript = (exponent) => [...String(exponent)].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");

@@ -8,14 +8,20 @@ class Program {
         const head = `#version 300 es\n${flat ? "#define FLAT\n" : ""}${COMMON}${withBodies ? BODIES : ""}`;
         this.gl = gl;
         this.program = gl.createProgram();
+        this.shaders = [];
         for (const [kind, text] of [[gl.VERTEX_SHADER, source.vertex], [gl.FRAGMENT_SHADER, source.fragment]]) {
             const shader = gl.createShader(kind);
             gl.shaderSource(shader, head + text);
             gl.compileShader(shader);
             gl.attachShader(this.program, shader);
-            this.shaders = [...(this.shaders ?? []), shader];
+            this.shaders.push(shader);
         }
         gl.linkProgram(this.program);
+    }
+
+    /** What waits for the compiler is left until a program is needed, so that all are compiled beside each other. */
+    finish() {
+        const { gl } = this;
         if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) {
             const notes = this.shaders.map((shader) => gl.getShaderInfoLog(shader)).join("\n");
             throw new Error(`${gl.getProgramInfoLog(this.program)}\n${notes}`);
@@ -29,6 +35,7 @@ class Program {
     }
 
     use() {
+        if (!this.places) this.finish();
         this.gl.useProgram(this.program);
         return this;
     }
@@ -50,27 +57,26 @@ class Program {
     }
 }
 
-/** An array with `parts` numbers for each body, in a texture whose first body is its first texel. */
-class BodyTexture {
-    constructor(gl, n, parts) {
-        this.gl = gl;
-        this.parts = parts;
-        this.rows = Math.floor(n / ROW);
-        this.rest = n % ROW;
-        this.format = [gl.RED, gl.RG, gl.RGB, gl.RGBA][parts - 1];
+/** A long array in a texture with rows of `row` texels, each of `parts` floats or of one whole number. */
+class ArrayTexture {
+    constructor(gl, length, parts, row = ROW, whole = false) {
+        Object.assign(this, { gl, parts, row, room: length });
+        this.format = whole ? gl.RED_INTEGER : [gl.RED, gl.RG, gl.RGB, gl.RGBA][parts - 1];
+        this.type = whole ? gl.UNSIGNED_INT : gl.FLOAT;
         this.texture = gl.createTexture();
         gl.bindTexture(gl.TEXTURE_2D, this.texture);
-        const inside = [gl.R32F, gl.RG32F, gl.RGB32F, gl.RGBA32F][parts - 1];
-        gl.texStorage2D(gl.TEXTURE_2D, 1, inside, ROW, this.rows + 1);
+        const inside = whole ? gl.R32UI : [gl.R32F, gl.RG32F, gl.RGB32F, gl.RGBA32F][parts - 1];
+        gl.texStorage2D(gl.TEXTURE_2D, 1, inside, row, Math.ceil((length + 1) / row));
         for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
     }
 
     /** Sends the numbers as they are; the last row is a part of one. */
     send(numbers) {
-        const gl = this.gl, full = this.rows * ROW * this.parts;
+        const { gl, parts, row, format, type } = this, length = numbers.length / parts;
+        const rows = Math.floor(length / row), rest = length % row;
         gl.bindTexture(gl.TEXTURE_2D, this.texture);
-        if (this.rows) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, ROW, this.rows, this.format, gl.FLOAT, numbers, 0);
-        if (this.rest) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, this.rows, this.rest, 1, this.format, gl.FLOAT, numbers, full);
+        if (rows) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, row, rows, format, type, numbers, 0);
+        if (rest) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, rows, rest, 1, format, type, numbers, rows * row * parts);
     }
 }
 

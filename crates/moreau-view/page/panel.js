@@ -32,7 +32,7 @@ class Panel {
             ["Velocity", `${tuple(frame.velocity, D * i, D)} m/s`],
             ["Speed", `${figures(lengthAt(frame.velocity, i, D))} m/s`],
             ["Spin", `${tuple(frame.spin, spin * i, spin)} rad/s`],
-            [figure.ball ? "Kinetic energy" : "Kinetic energy of translation", `${figures(kineticEnergy(run, frame, i))} J`],
+            [figure.ball ? "Kinetic energy" : "Kinetic, no spin", `${figures(kineticEnergy(run, frame, i))} J`],
             ["Coordination", String(picture.scalars.touching[i])],
             ["Contacts", touching.length ? this.contactLinks(i, touching) : "none"],
         ];

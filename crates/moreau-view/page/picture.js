@@ -1,7 +1,7 @@
 // The picture: one canvas, drawn again only when something in it has changed.
 
 /** With more bodies than this, edges are not smoothed: it costs more than it shows. */
-const SMOOTH_UP_TO = 6000;
+const SMOOTH_UP_TO = 3000;
 
 class Picture {
     constructor(canvas, run) {
@@ -24,10 +24,10 @@ class Picture {
     prepare() {
         const { gl, run } = this, flat = run.dimension === 2, D = run.dimension;
         gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-        this.places = [new BodyTexture(gl, run.n, D), new BodyTexture(gl, run.n, D)];
-        this.turns = [new BodyTexture(gl, run.n, flat ? 2 : 4), new BodyTexture(gl, run.n, flat ? 2 : 4)];
-        this.values = new BodyTexture(gl, run.n, 1);
-        this.facts = new BodyTexture(gl, run.n, 2);
+        this.places = [new ArrayTexture(gl, run.n, D), new ArrayTexture(gl, run.n, D)];
+        this.turns = [new ArrayTexture(gl, run.n, flat ? 2 : 4), new ArrayTexture(gl, run.n, flat ? 2 : 4)];
+        this.values = new ArrayTexture(gl, run.n, 1);
+        this.facts = new ArrayTexture(gl, run.n, 2);
         const facts = new Float32Array(2 * run.n);
         for (let i = 0; i < run.n; i++) facts.set([run.bodies.radius[i], run.bodies.free[i]], 2 * i);
         this.facts.send(facts);
@@ -90,7 +90,7 @@ class Picture {
         program.matrix("projection", camera.projection);
         for (const name in theme) program.vector(name, theme[name]);
         program.number("pixel", (2 * SLOPE * (camera.flat ? camera.distance : 1)) / this.canvas.height);
-        program.number("fade", this.chainsShown && this.faded ? 0.8 : 0);
+        program.number("fade", this.chainsShown && this.faded ? 0.74 : 0);
         program.number("blend", this.blend);
         program.number("low", scalars.low);
         program.number("high", scalars.high);

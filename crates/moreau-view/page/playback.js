@@ -15,7 +15,7 @@ class Playback {
         // A run lasts about ten seconds unless it is told otherwise.
         const wanted = (run.times.at(-1) - run.times[0]) / 10;
         this.rate = RATES.reduce((best, rate) => (Math.abs(Math.log(rate / wanted)) < Math.abs(Math.log(best / wanted)) ? rate : best));
-        this.asked = 0;
+        this.reaching = false;
     }
 
     get last() {
@@ -23,7 +23,7 @@ class Playback {
     }
 
     play() {
-        if (this.index >= this.last && !this.run.meta.live) this.seekFrame(0);
+        if (this.index >= this.last && !this.run.meta.live) this.seekFrame(0).catch(tell);
         this.follows = false;
         this.playing = true;
         this.before = undefined;
@@ -32,20 +32,33 @@ class Playback {
     pause() {
         if (this.playing) {
             this.playing = false;
-            this.seekFrame(this.index);
+            this.seekFrame(this.index).catch(tell);
         }
     }
 
     /** Shows frame `i` when it is decoded; of several that are asked for meanwhile the last one. */
-    async seekFrame(i) {
-        const asked = ++this.asked, index = clamp(Math.round(i), 0, this.last);
-        this.index = index;
-        this.time = this.run.times[index];
-        const frame = this.run.decoded(index) ?? (await this.run.frame(index));
-        if (asked !== this.asked || this.index !== index) return;
-        this.picture.show(frame, null, 0);
-        this.run.ahead(index + 1);
-        this.changed();
+    seekFrame(i) {
+        this.index = clamp(Math.round(i), 0, this.last);
+        this.time = this.run.times[this.index];
+        if (!this.reaching) this.seeking = this.reach();
+        return this.seeking;
+    }
+
+    /** Decodes what is asked for, one block after the other, until that is shown. */
+    async reach() {
+        this.reaching = true;
+        try {
+            for (;;) {
+                const { index } = this, frame = this.run.decoded(index) ?? (await this.run.frame(index));
+                if (this.playing) return;
+                if (index !== this.index) continue;
+                this.picture.show(frame, null, 0);
+                this.run.ahead(index + 1);
+                return this.changed();
+            }
+        } finally {
+            this.reaching = false;
+        }
     }
 
     /** Shows the frame that is nearest to a time. */
@@ -65,7 +78,6 @@ class Playback {
         const frame = this.run.decoded(index), next = this.run.decoded(second);
         this.run.ahead(second);
         if (!frame || !next) return this.run.ahead(index);
-        this.asked++;
         [this.time, this.index] = [time, index];
         const blend = second > index ? (time - times[index]) / (times[second] - times[index]) : 0;
         this.picture.show(frame, next, this.blending ? blend : 0);

@@ -42,33 +42,45 @@ void main() {
 
 const CHAIN = {
     vertex: `
-layout(location = 0) in uint a;
-layout(location = 1) in uint b;
-layout(location = 2) in vec3 point;
-layout(location = 3) in vec3 normal;
-layout(location = 4) in vec3 impulse;
-layout(location = 5) in uint status;
+precision highp usampler2D;
+uniform usampler2D contacts; // a, b, point, normal, impulse, gap, status of all contacts, one array after the other
+uniform int count;
 uniform vec3 statusColours[3];
 uniform float widest, reference;
 flat out vec3 tint;
 out float beside;
-vec3 end(uint body) {
+#ifdef FLAT
+const int D = 2;
+#else
+const int D = 3;
+#endif
+uint word(int i) { return texelFetch(contacts, ivec2(i & 4095, i >> 12), 0).x; }
+// The vector of contact k in the array that is the first, second, ... after the indices of bodies.
+vec3 vectorOf(int array, int k) {
+    int at = 2 * count + D * (array * count + k);
+    return vec3(uintBitsToFloat(word(at)), uintBitsToFloat(word(at + 1)), flatScene ? 0.0 : uintBitsToFloat(word(at + 2)));
+}
+vec3 end(uint body, vec3 point) {
     vec2 fact = texelFetch(facts, cell(int(body)), 0).xy;
     vec3 p = place(int(body));
     return fact.x > 0.0 && fact.y > 0.5 && !absent(p) ? p : point;
 }
 void main() {
-    vec3 p = (view * vec4(end(a), 1.0)).xyz, q = (view * vec4(end(b), 1.0)).xyz;
-    bool isChosen = gl_InstanceID == chosen;
-    float push = dot(impulse, normal);
+    int k = gl_VertexID / 6, corner = gl_VertexID % 6;
+    if (corner > 2) corner -= 2; // the second triangle, from the second corner on
+    vec3 point = vectorOf(0, k);
+    uint status = word((3 + 3 * D) * count + (k >> 2)) >> (8 * (k & 3)) & 255u;
+    vec3 p = (view * vec4(end(word(k), point), 1.0)).xyz, q = (view * vec4(end(word(count + k), point), 1.0)).xyz;
+    bool isChosen = k == chosen;
+    float push = dot(vectorOf(2, k), vectorOf(1, k));
     float width = push > 0.0 ? widest * clamp(push / reference, 0.03, 1.3) : 0.0;
-    vec3 here = (gl_VertexID >> 1) == 0 ? p : q;
+    vec3 here = (corner >> 1) == 0 ? p : q;
     width = max(width, (status == 0u ? 0.4 : 0.75) * pixelAt(here.z));
     if (isChosen) width = 1.3 * width + 2.0 * pixelAt(here.z);
     vec3 along = q - p;
     vec3 side = flatScene ? vec3(-along.y, along.x, 0.0) : cross(along, here);
     side /= max(length(side), 1e-30);
-    beside = float(gl_VertexID & 1) * 2.0 - 1.0;
+    beside = float(corner & 1) * 2.0 - 1.0;
     tint = isChosen ? mark : status == 0u ? mix(statusColours[0], ground, 0.45) : statusColours[status];
     gl_Position = projection * vec4(here + side * beside * width, 1.0);
 }`,

@@ -6,7 +6,7 @@ precision highp float;
 precision highp int;
 precision highp sampler2D;
 uniform mat4 view, projection;
-uniform vec3 ground, line, still, mark;
+uniform vec3 ground, line, still, faint, mark;
 uniform float pixel, fade;
 #ifdef FLAT
 const bool flatScene = true;
@@ -18,7 +18,7 @@ float pixelAt(float z) { return flatScene ? pixel : -z * pixel; }
 vec3 lit(vec3 tint, vec3 n) {
     if (flatScene) return tint;
     float key = max(dot(n, vec3(-0.37, 0.66, 0.65)), 0.0);
-    return tint * (0.44 + 0.1 * n.y + 0.5 * key) + vec3(0.05) * pow(key, 12.0);
+    return tint * (0.52 + 0.12 * n.y + 0.48 * key) + vec3(0.05) * pow(key, 12.0);
 }`;
 
 const BODIES = `
@@ -47,10 +47,10 @@ vec3 turnedBack(vec4 q, vec3 v) { return turned(flatScene ? vec4(q.x, -q.y, 0.0,
 bool isFree(int i) { return texelFetch(facts, cell(i), 0).y > 0.5; }
 vec3 tintOf(int i) {
     if (i == chosen) return mark;
-    if (!isFree(i)) return mix(still, ground, fade);
+    if (!isFree(i)) return mix(still, faint, fade);
     float value = (texelFetch(values, cell(i), 0).x - low) / (high - low);
     vec3 tint = texelFetch(ramp, ivec2(int(clamp(value, 0.0, 1.0) * 255.0 + 0.5), 0), 0).rgb;
-    return mix(tint, ground, fade);
+    return mix(tint, faint, fade);
 }`;
 
 const NOWHERE = "gl_Position = vec4(2.0, 2.0, 2.0, 1.0);";
@@ -66,7 +66,9 @@ out vec3 seen;
 void main() {
     vec3 p = place(body);
     if (absent(p)) { ${NOWHERE} return; }
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    // Corners of the smallest triangle around the circle of radius 1.
+    int k = gl_VertexID % 3;
+    vec2 corner = k == 0 ? vec2(0.0, 2.0) : vec2(k == 1 ? -1.7320509 : 1.7320509, -1.0);
     q = attitude(body);
     tint = tintOf(body);
     centre = (view * vec4(p, 1.0)).xyz;
@@ -115,7 +117,7 @@ void main() {
     float spot = smoothstep(0.88 - soft, 0.88 + soft, m.z);
     float marked = max(belt, spot) * smoothstep(4.0, 9.0, 1.0 / px);
     vec3 painted = tint * (1.0 - 0.3 * marked);
-    colour = vec4(lit(painted, n) * mix(0.62, 1.0, smoothstep(0.0, 0.55, depth)), inside);
+    colour = vec4(lit(painted, n) * mix(0.6, 1.0, smoothstep(0.0, 0.5, depth)), inside);
     float z = projection[2][2] * hit.z + projection[3][2];
     gl_FragDepth = 0.5 + 0.5 * z / -hit.z;
 }`,
@@ -153,7 +155,7 @@ flat out vec3 tint;
 void main() {
     vec3 p = place(body);
     if (absent(p)) { ${NOWHERE} return; }
-    tint = body == chosen ? line : mix(line, ground, fade);
+    tint = flatScene ? mix(line, ground, 0.75 * fade) : 0.45 * tintOf(body);
     gl_Position = projection * (view * vec4(p + turned(attitude(body), corner), 1.0));
     gl_Position.z -= 3e-4 * gl_Position.w; // in front of its faces
 }`,

@@ -8,14 +8,13 @@ const worse = (a, b) => (["good", "fair", "bad"].indexOf(a) > ["good", "fair", "
 const grade = (x, good, fair) => (x <= good ? "good" : x <= fair ? "fair" : "bad");
 
 function convergence({ steps, unconverged_steps: bad }) {
-    const all = steps === 1 ? "The one step" : `All ${plural(steps, "step")}`;
-    if (!bad) return ["good", "Convergence", `${all} converged`];
-    return [grade(bad, 0, 0.01 * steps), "Convergence", `${bad} of ${plural(steps, "step")} did not converge`];
+    if (!bad) return ["good", "Convergence", `in all ${plural(steps, "step")}`];
+    return [grade(bad, 0, 0.01 * steps), "Convergence", `not in ${bad} of ${plural(steps, "step")}`];
 }
 
 function residual(verdict, { tolerance, criterion }) {
     const worst = criterion === "scaled_residual" ? verdict.scaled_residual_max : verdict.eps_glob_max;
-    return [grade(worst, tolerance, 10 * tolerance), "Worst residual", `${figures(worst)} for a tolerance of ${figures(tolerance)}`];
+    return [grade(worst, tolerance, 10 * tolerance), "Residual", `≤ ${figures(worst)} (tolerance ${figures(tolerance)})`];
 }
 
 function penetration(verdict, bodies) {
@@ -24,19 +23,20 @@ function penetration(verdict, bodies) {
         if (r > 0 && bodies.free[i]) least = Math.min(least, r);
     });
     const deep = Math.max(verdict.penetration_max ?? NaN, 0);
-    const part = Number.isFinite(least) ? `, ${figures(100 * (deep / least), 2)} % of the smallest radius` : "";
-    return [grade(deep / least, 0.01, 0.05), "Deepest overlap", `${quantity(deep, "m")}${part}`];
+    const part = Number.isFinite(least) ? ` (${figures(100 * (deep / least), 2)} % of a radius)` : "";
+    return [grade(deep / least, 0.01, 0.05), "Overlap", `≤ ${quantity(deep, "m")}${part}`];
 }
 
 function balance({ balance_error_max: error, energy_scale: whole }) {
     const part = whole > 0 ? error / whole : error;
-    const words = whole > 0 ? `closes to ${figures(100 * part, 2)} % of ${quantity(whole, "J")}` : `is off by ${quantity(error, "J")}`;
-    return [grade(part, 1e-3, 1e-2), "Energy", `the balance ${words}`];
+    const words = whole > 0 ? `closes to ${figures(100 * part, 2)} %` : `is off by ${quantity(error, "J")}`;
+    return [grade(part, 1e-3, 1e-2), "Energy", `balance ${words}`];
 }
 
-const OVERALL = { good: "This run can be trusted", fair: "This run is usable, with care", bad: "This run should not be trusted" };
+const OVERALL = { good: "All checks passed", fair: "Passed with reservations", bad: "Not to be relied on" };
 
 function showVerdict({ verdict, solver, bodies, live }) {
+    if (!verdict.steps) return byId("verdict").replaceChildren(element("p", {}, "No step has been made."));
     const parts = [convergence(verdict), residual(verdict, solver), penetration(verdict, bodies), balance(verdict)];
     const whole = parts.map(([word]) => word).reduce(worse);
     const left = verdict.planned_steps - verdict.steps;
@@ -57,7 +57,7 @@ function showHeader(meta) {
         `${solver.global} + ${solver.local}`, `tolerance ${figures(solver.tolerance)}`,
         `${figures(verdict.seconds?.total)} s on ${plural(verdict.threads ?? 1, "thread")}`, `moreau ${verdict.version}`,
     ];
-    if (meta.thinned > 1) words.push(`each ${meta.thinned}th frame of the trajectory`);
+    if (meta.thinned > 1) words.push(`1 frame in ${meta.thinned}`);
     byId("solver").textContent = words.join(" · ");
     showVerdict(meta);
 }

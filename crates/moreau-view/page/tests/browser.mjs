@@ -20,7 +20,8 @@ export async function open(browser, report, options = {}) {
     });
     page.on("pageerror", (error) => complaints.push(`error: ${error.stack}`));
     page.on("request", (request) => {
-        if (request.url() !== address && !request.url().startsWith("data:,")) complaints.push(`request: ${request.url().slice(0, 200)}`);
+        // A blob is the page's own text.
+        if (request.url() !== address && !/^(data:,|blob:)/.test(request.url())) complaints.push(`request: ${request.url().slice(0, 200)}`);
     });
     const began = performance.now();
     await page.goto(address);

@@ -5,7 +5,7 @@ import { writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { assemble } from "./assemble.mjs";
 
-const BLOCK_BYTES = 4e6;
+const BLOCK_BYTES = Number(process.env.BLOCK_BYTES ?? 4e6);
 
 /** Numbers from 0 to 1 that are the same each time. */
 function random(seed) {
@@ -59,9 +59,10 @@ export class Synthetic {
         return this.D === 2 ? [k % s, Math.floor(k / s)] : [k % s, Math.floor(k / s) % s, Math.floor(k / (s * s))];
     }
 
-    /** Where body `i` is at `t` from 0 to 1. */
+    /** Where body `i` is at `t` from 0 to 1; the last one comes late, and is not a number before. */
     place(i, t) {
         const { D, r, side } = this;
+        if (i === this.n - 1 && t < 0.3) return Array(D).fill(NaN);
         if (i === 0) return D === 2 ? [0, 0] : [0, 0, 0];
         if (i === 1) return D === 2 ? [-side * r - 8 * r, 0] : [-side * r - 6 * r, 0, 0.6 * r];
         const cell = this.cell(i), loose = 1 + 0.35 * (1 - t) ** 2, axis = this.axes[i - this.grounds];
@@ -114,7 +115,7 @@ export class Synthetic {
     touch(found, a, b, p, q, load, floor = false) {
         const apart = q.map((x, k) => x - p[k]), d = Math.hypot(...apart), normal = apart.map((x) => x / d);
         const gap = d - (floor ? 1 : 2) * this.r;
-        if (gap > 0.25 * this.r) return;
+        if (!(gap <= 0.25 * this.r)) return;
         const status = gap > 0.1 * this.r ? 0 : found.length % 4 === 0 ? 2 : 1;
         const slip = 0.2 * load, impulse = normal.map((x, k) => (status ? load * x + (k === 0 ? slip * (1 - normal[0] ** 2) : 0) : 0));
         found.push({ a, b, point: p.map((x, k) => x + (floor ? 0 : apart[k] / 2)), normal, impulse, gap, status });
