@@ -4,9 +4,10 @@ const HTML: &str = include_str!("../page/page.html");
 const STYLE: &str = include_str!("../page/style.css");
 
 /// The scripts, in the order of `page/ORDER`: one names what those before it have.
-const SCRIPTS: [&str; 23] = [
+const SCRIPTS: [&str; 27] = [
     include_str!("../page/maths.js"),
     include_str!("../page/colour.js"),
+    include_str!("../page/decoder.js"),
     include_str!("../page/data.js"),
     include_str!("../page/camera.js"),
     include_str!("../page/shaders.js"),
@@ -27,6 +28,9 @@ const SCRIPTS: [&str; 23] = [
     include_str!("../page/playback.js"),
     include_str!("../page/live.js"),
     include_str!("../page/controls.js"),
+    include_str!("../page/buttons.js"),
+    include_str!("../page/pace.js"),
+    include_str!("../page/page.js"),
     include_str!("../page/main.js"),
 ];
 
