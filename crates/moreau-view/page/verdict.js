@@ -13,7 +13,7 @@ function convergence({ steps, unconverged_steps: bad }) {
 }
 
 function residual(verdict, { tolerance, criterion }) {
-    const worst = criterion === "scaled" ? verdict.scaled_residual_max : verdict.eps_glob_max;
+    const worst = ["scaled", "strict"].includes(criterion) ? verdict.scaled_residual_max : verdict.eps_glob_max;
     return [grade(worst, tolerance, 10 * tolerance), "Residual", `≤ ${figures(worst)} (tolerance ${figures(tolerance)})`];
 }
 
