@@ -117,10 +117,10 @@ impl Viewer {
         let path = path.ok_or_else(nothing)?.to_owned();
         match (request.method(), path.as_str()) {
             (Method::Get, "/") => Ok(("text/html; charset=utf-8", page::served().into_bytes())),
-            (Method::Get, "/meta.json") => self.meta().map(|meta| ("application/json", meta)).map_err(not_now),
+            (Method::Get, "/meta.json") => self.meta().map(|meta| ("application/json", meta)).map_err(|error| not_now(&error)),
             (Method::Get, path) => {
                 let number = path.strip_prefix("/block/").and_then(|number| number.parse().ok());
-                let bytes = self.block(number.ok_or_else(nothing)?).map_err(not_now)?;
+                let bytes = self.block(number.ok_or_else(nothing)?).map_err(|error| not_now(&error))?;
                 Ok(("application/octet-stream", bytes.ok_or_else(nothing)?))
             }
             (Method::Post, "/control") if self.live => {
@@ -176,6 +176,6 @@ impl Viewer {
 }
 
 /// A file that grows may be met half-way: the page asks again.
-fn not_now(error: RecordingError) -> (u16, String) {
+fn not_now(error: &RecordingError) -> (u16, String) {
     (503, error.to_string())
 }

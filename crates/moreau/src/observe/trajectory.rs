@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 /// How many numbers are written together, and for how long they may wait: each dataset is touched anew each time. What is left at the end
 /// is waited for.
-const ENOUGH: usize = 1 << 18;
+const ENOUGH: usize = 1 << 16;
 const LONG_ENOUGH: Duration = Duration::from_secs(1);
 
 /// So many records of steps are handed over without a frame.

@@ -60,8 +60,8 @@ fn farthest<A: Faceted, B: Faceted>(body: &Seen<'_, A>, other: &Seen<'_, B>, rea
         let corner = body.corner(face, 0);
         let height = |vertex: &[f64; 3]| dot(normal, sub(*vertex, corner));
         let nearest = other.vertices.iter().map(height).fold(f64::INFINITY, |least, x| if least < x { least } else { x });
-        // Not `>`: what is nowhere touches nothing.
-        if !(nearest <= reach) {
+        // What is nowhere touches nothing.
+        if nearest.is_nan() || nearest > reach {
             return None;
         }
         if nearest > best.1 {
