@@ -19,4 +19,3 @@ shoot aqueduct.toml aqueduct.png --size 1200x600 --look=-0.35,1,-0.4
 shoot arch.toml arch.png --chains --size 900x600 --look=-0.3,1,-0.25
 shoot ballast.toml ballast.png --size 800x600
 shoot punch.toml punch.svg --chains
-shoot punch.toml punch.png --chains --size 800x0

@@ -93,11 +93,11 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(args: &Args, scene: &Scene
     }
     say(&report(args, scene, world, &rows, at))?;
     if let Some(path) = &args.csv {
-        write_whole(path, &csv(&rows))?;
+        write_whole(path, csv(&rows))?;
     }
     if let Some(path) = &args.plot {
         let title = format!("{}: error by sweep at step {at}", scene::name(&args.scene));
-        write_whole(path, &figure(&title, world.settings.solver.criterion, &rows))?;
+        write_whole(path, figure(&title, world.settings.solver.criterion, &rows))?;
     }
     verdict(&rows, at)
 }

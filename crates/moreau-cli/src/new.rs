@@ -21,6 +21,6 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     if Path::new(&file).exists() {
         return Err(Failure::file(format!("{file} exists already and is left as it is; choose another name")));
     }
-    write_whole(Path::new(&file), &template(stem))?;
+    write_whole(Path::new(&file), template(stem))?;
     say(&format!("{file} written; run it with: moreau run {file}\n"))
 }

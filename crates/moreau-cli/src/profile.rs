@@ -74,7 +74,7 @@ pub(crate) fn profile(args: &Args) -> Result<(), Failure> {
         }
     }
     bar.finish_and_clear();
-    write_whole(&args.out.join("results.csv"), &results(&rows, &methods))?;
+    write_whole(&args.out.join("results.csv"), results(&rows, &methods))?;
     // Curves over problems that not all methods have tried would mislead.
     let interrupted = stop.load(Ordering::Relaxed) && rows.len() + failures.len() < files.len()
         || rows.last().is_some_and(|row| row.cells.len() < methods.len());
@@ -181,7 +181,7 @@ fn measures(rows: &[Row], methods: &[Methods]) -> [Measure; 2] {
 
 fn write_profile(args: &Args, measure: &Measure) -> Result<(), Failure> {
     let file = |ending: &str| args.out.join(format!("profile-{}.{ending}", measure.what));
-    write_whole(&file("csv"), &measure.csv())?;
+    write_whole(&file("csv"), measure.csv())?;
     let title = format!("part of the problems solved within τ times the least {}", measure.what);
     write_whole(&file("svg"), draw(&title, &measure.curves()).svg())
 }

@@ -61,7 +61,7 @@ pub(crate) fn study<S: Space<D, N>, const D: usize, const N: usize>(
         write_whole(path, &csv)?;
     }
     if let Some(path) = study.plot {
-        write_whole(path, &linear("sweeps a step against ρ", "ρ relative to 1/W", "sweeps of NLGS a step", &curves).svg())?;
+        write_whole(path, linear("sweeps a step against ρ", "ρ relative to 1/W", "sweeps of NLGS a step", &curves).svg())?;
     }
     Ok((rows, interrupted))
 }

@@ -50,7 +50,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .or_else(|| scene.output.folder.as_ref().map(PathBuf::from))
         .unwrap_or_else(|| Path::new("out").join(scene::name(&args.scene)));
     prepare(&folder, &args.scene)?;
-    write_whole(&folder.join("scene.toml"), &scene.to_toml())?;
+    write_whole(&folder.join("scene.toml"), scene.to_toml())?;
     match world {
         AnyWorld::Plane(world) => go(args, &scene, world, &folder),
         AnyWorld::Solid(world) => go(args, &scene, world, &folder),
@@ -182,7 +182,7 @@ fn compute<S: Space<D, N>, const D: usize, const N: usize>(
     summary["bodies_inserted"] = world.schedule.inserted().into();
     summary["bodies_removed"] = world.schedule.removed().into();
     summary["memory_bytes"] = scene::memory_in_use().into();
-    let written = write_whole(&folder.join("summary.json"), &format!("{summary:#}\n"));
+    let written = write_whole(&folder.join("summary.json"), format!("{summary:#}\n"));
     if let Some(error) = unwritten {
         return Err(Failure::file(format!("{error}; {}", kept(&outcome, folder))));
     }
