@@ -76,6 +76,9 @@ impl Shot {
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         match self {
             Self::Plane(drawing, _) if !is_png => drawing.save(path),
+            Self::Space(_) if !is_png => {
+                Err(Error::Format { path: path.to_owned(), known: ".png; .svg and .pdf are for scenes in the plane" })
+            }
             _ => self.image()?.save(path),
         }
     }

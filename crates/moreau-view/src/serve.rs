@@ -94,7 +94,7 @@ impl Viewer {
             Err((code, reason)) => (code, "text/plain; charset=utf-8", reason.into_bytes()),
         };
         let header = |name: &str, value: &str| Header::from_bytes(name, value).ok();
-        let mut response = Response::from_data(body).with_status_code(code);
+        let mut response = Response::from_data(body).with_status_code(code).with_chunked_threshold(usize::MAX);
         let headers = [
             ("Content-Type", kind),
             ("Cache-Control", "no-store"),
