@@ -7,7 +7,13 @@ const KEPT_BYTES = 384 * 1024 * 1024;
 async function readMeta() {
     const held = document.getElementById("meta");
     if (held) return JSON.parse(held.textContent);
-    return (await fetch("meta.json", { cache: "no-store" })).json();
+    for (;;) {
+        const answer = await fetch("meta.json", { cache: "no-store" });
+        if (answer.ok) return answer.json();
+        // A run that has just begun has nothing yet, and a file that grows can be met half-way.
+        if (answer.status !== 503) throw new Error(`the server says ${answer.status}: ${await answer.text()}`);
+        await new Promise((later) => setTimeout(later, 300));
+    }
 }
 
 /** Arrays of one frame, as views of its block's bytes from `offset` on; `end` is where the next frame begins. */
