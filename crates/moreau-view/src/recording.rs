@@ -5,6 +5,7 @@ mod bodies;
 mod record;
 
 pub use block::block;
+pub(crate) use bodies::Drawn;
 
 use moreau::scene::{AnyWorld, Scene};
 use moreau::trajectory::{Trajectory, TrajectoryError};

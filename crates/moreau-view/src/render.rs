@@ -2,9 +2,8 @@
 
 use crate::picture::flat::{Drawing, Figure, Link, Outline, Window};
 use crate::picture::{Body, Camera, Error, Image, Mesh, Picture, Segment, Shape as Form, colour};
-use crate::recording::{Recording, RecordingError};
+use crate::recording::{Drawn, Recording, RecordingError};
 use moreau::scene::AnyWorld;
-use moreau::shape::Shape;
 use moreau::space::{Plane, Solid, Space};
 use moreau::trajectory::TrajectoryFrame;
 use moreau::world::World;
@@ -159,11 +158,10 @@ fn space(run: &Recording, world: &World<Solid, 3, 6>, frame: &TrajectoryFrame, l
     let (mut bodies, mut meshes) = (Vec::new(), Vec::new());
     let ((places, _), (turns, _)) = (frame.position.as_chunks::<3>(), frame.rotation.as_chunks::<4>());
     for (i, (shape, colour)) in world.bodies.shape.iter().zip(colours::<3>(run, frame, look)).enumerate() {
-        let form = match (shape.bounding_radius(), shape.bounding_normal(Solid::IDENTITY)) {
-            (Some(radius), _) if shape.is_round() => Form::Ball { radius },
-            (None, Some(normal)) => Form::Plane { normal },
-            _ => {
-                let polygons = shape.polygons();
+        let form = match Drawn::of::<Solid, 6>(shape) {
+            Drawn::Ball(radius) => Form::Ball { radius },
+            Drawn::Plane(normal) => Form::Plane { normal },
+            Drawn::Polygons(polygons) => {
                 let faces = polygons.iter().filter(|polygon| polygon.len() > 2).map(<[usize]>::to_vec).collect();
                 meshes.push(Mesh { polygons: faces, vertices: polygons.vertices });
                 Form::Mesh(meshes.len() - 1)
@@ -190,11 +188,10 @@ fn up(gravity: &[f64]) -> [f64; 3] {
 fn plane(run: &Recording, world: &World<Plane, 2, 3>, frame: &TrajectoryFrame, look: &Look) -> Drawing {
     let ((places, _), (turns, _)) = (frame.position.as_chunks::<2>(), frame.rotation.as_chunks::<2>());
     let figure = |(i, (shape, colour)): (usize, (&<Plane as Space<2, 3>>::Shape, [u8; 3]))| {
-        let outline = match (shape.bounding_radius(), shape.bounding_normal(Plane::IDENTITY)) {
-            (Some(radius), _) if shape.is_round() => Outline::Disk { radius },
-            (None, Some(normal)) => Outline::HalfPlane { normal },
-            _ => {
-                let polygons = shape.polygons();
+        let outline = match Drawn::of::<Plane, 3>(shape) {
+            Drawn::Ball(radius) => Outline::Disk { radius },
+            Drawn::Plane(normal) => Outline::HalfPlane { normal },
+            Drawn::Polygons(polygons) => {
                 let corners = |polygon: &[usize]| polygon.iter().map(|&k| polygons.vertices[k]).collect();
                 Outline::Polygons(polygons.iter().map(corners).collect())
             }

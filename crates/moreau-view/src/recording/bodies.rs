@@ -1,7 +1,7 @@
 //! Bodies and their shapes.
 
 use moreau::scene::Scene;
-use moreau::shape::Shape;
+use moreau::shape::{Polygons, Shape};
 use moreau::space::Space;
 use moreau::world::World;
 use serde_json::{Value, json};
@@ -12,7 +12,7 @@ pub(super) fn of<S: Space<D, N>, const D: usize, const N: usize>(scene: &Scene, 
     let bodies = &world.bodies;
     let (mut shapes, mut known) = (Vec::new(), HashMap::new());
     let mut number = |shape: &S::Shape| {
-        let shape = drawn::<S, D, N>(shape);
+        let shape = Drawn::of::<S, N>(shape).json();
         *known.entry(shape.to_string()).or_insert_with(|| {
             shapes.push(shape);
             shapes.len() - 1
@@ -32,17 +32,33 @@ pub(super) fn of<S: Space<D, N>, const D: usize, const N: usize>(scene: &Scene, 
     (value, shapes)
 }
 
-/// A shape as it is drawn: a ball, what lies below a plane, or polygons.
-fn drawn<S: Space<D, N>, const D: usize, const N: usize>(shape: &S::Shape) -> Value {
-    if shape.is_round()
-        && let Some(radius) = shape.bounding_radius()
-    {
-        return json!({ "ball": radius });
+/// A shape as it is drawn.
+pub(crate) enum Drawn<const D: usize> {
+    /// A ball or disk of this radius, m.
+    Ball(f64),
+    /// What lies below a plane or line with this normal.
+    Plane([f64; D]),
+    /// Its boundary, or nearly.
+    Polygons(Polygons<D>),
+}
+
+impl<const D: usize> Drawn<D> {
+    pub(crate) fn of<S: Space<D, N>, const N: usize>(shape: &S::Shape) -> Self {
+        match (shape.bounding_radius(), shape.bounding_normal(S::IDENTITY)) {
+            (Some(radius), _) if shape.is_round() => Self::Ball(radius),
+            (None, Some(normal)) => Self::Plane(normal),
+            _ => Self::Polygons(shape.polygons()),
+        }
     }
-    if let Some(normal) = shape.bounding_normal(S::IDENTITY) {
-        return json!({ "plane": normal.as_slice() });
+
+    fn json(&self) -> Value {
+        match self {
+            Self::Ball(radius) => json!({ "ball": radius }),
+            Self::Plane(normal) => json!({ "plane": normal.as_slice() }),
+            Self::Polygons(polygons) => {
+                let vertices: Vec<&[f64]> = polygons.vertices.iter().map(<[f64; D]>::as_slice).collect();
+                json!({ "vertices": vertices, "polygons": polygons.iter().collect::<Vec<_>>() })
+            }
+        }
     }
-    let polygons = shape.polygons();
-    let vertices: Vec<&[f64]> = polygons.vertices.iter().map(<[f64; D]>::as_slice).collect();
-    json!({ "vertices": vertices, "polygons": polygons.iter().collect::<Vec<_>>() })
 }
