@@ -11,10 +11,15 @@ use std::io::Read as _;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 use tiny_http::{Header, Method, Request, Response, Server};
 
 /// The longest body of a request that is looked at, bytes.
 const LONGEST: u64 = 64;
+
+/// A file that grows may be met half-way: so often it is read again, after so long.
+const TRIES: u32 = 25;
+const BETWEEN: Duration = Duration::from_millis(20);
 
 /// What can be asked of a run that goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +86,7 @@ impl Viewer {
     pub fn serve(&mut self, stop: &AtomicBool, running: &AtomicBool, mut order: impl FnMut(Order)) {
         while !stop.load(Ordering::Relaxed) {
             // A request that fails is the browser's affair.
-            if let Ok(Some(request)) = self.server.recv_timeout(std::time::Duration::from_millis(100)) {
+            if let Ok(Some(request)) = self.server.recv_timeout(Duration::from_millis(100)) {
                 self.live = running.load(Ordering::Relaxed);
                 let _ = self.answer(request, &mut order);
             }
@@ -117,10 +122,13 @@ impl Viewer {
         let path = path.ok_or_else(nothing)?.to_owned();
         match (request.method(), path.as_str()) {
             (Method::Get, "/") => Ok(("text/html; charset=utf-8", page::served().into_bytes())),
-            (Method::Get, "/meta.json") => self.meta().map(|meta| ("application/json", meta)).map_err(|error| not_now(&error)),
+            (Method::Get, "/meta.json") => {
+                self.patiently(Self::meta).map(|meta| ("application/json", meta)).map_err(|error| not_now(&error))
+            }
             (Method::Get, path) => {
                 let number = path.strip_prefix("/block/").and_then(|number| number.parse().ok());
-                let bytes = self.block(number.ok_or_else(nothing)?).map_err(|error| not_now(&error))?;
+                let number = number.ok_or_else(nothing)?;
+                let bytes = self.patiently(|viewer| viewer.block(number)).map_err(|error| not_now(&error))?;
                 Ok(("application/octet-stream", bytes.ok_or_else(nothing)?))
             }
             (Method::Post, "/control") if self.live => {
@@ -150,6 +158,17 @@ impl Viewer {
         value("Host").is_some_and(|host| names.contains(&host)) && origin
     }
 
+    /// What can be read, now or in a moment.
+    fn patiently<T>(&mut self, read: impl Fn(&mut Self) -> Result<T, RecordingError>) -> Result<T, RecordingError> {
+        for _ in 1..TRIES {
+            match read(self) {
+                Err(_) if self.live => std::thread::sleep(BETWEEN),
+                done => return done,
+            }
+        }
+        read(self)
+    }
+
     fn recording(&mut self) -> Result<&Recording, RecordingError> {
         match &mut self.recording {
             Some(recording) if self.live => recording.renew()?,
@@ -175,7 +194,7 @@ impl Viewer {
     }
 }
 
-/// A file that grows may be met half-way: the page asks again.
+/// A run that has just begun has nothing to show yet: the page asks again.
 fn not_now(error: &RecordingError) -> (u16, String) {
     (503, error.to_string())
 }
