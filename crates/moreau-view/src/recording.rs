@@ -82,8 +82,17 @@ impl Recording {
     /// # Errors
     /// Where the trajectory cannot be read any more.
     pub fn renew(&mut self) -> Result<(), RecordingError> {
-        self.trajectory = Trajectory::open(&self.folder.join("trajectory.h5"))?;
+        self.renew_frames()?;
         self.columns = self.trajectory.columns()?;
+        Ok(())
+    }
+
+    /// Sees the frames that have come since, and no records of steps: of a file that grows fast little can be read before it has changed again.
+    ///
+    /// # Errors
+    /// As for [`Self::renew`].
+    pub fn renew_frames(&mut self) -> Result<(), RecordingError> {
+        self.trajectory = Trajectory::open(&self.folder.join("trajectory.h5"))?;
         Ok(())
     }
 

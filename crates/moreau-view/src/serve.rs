@@ -169,24 +169,25 @@ impl Viewer {
         read(self)
     }
 
-    fn recording(&mut self) -> Result<&Recording, RecordingError> {
+    /// The run as it was when it was looked at last.
+    fn recording(&mut self) -> Result<&mut Recording, RecordingError> {
         match &mut self.recording {
-            Some(recording) if self.live => recording.renew()?,
-            Some(_) => {}
-            none => *none = Some(Recording::open(&self.folder)?),
+            Some(recording) => Ok(recording),
+            none => Ok(none.insert(Recording::open(&self.folder)?)),
         }
-        self.recording.as_ref().ok_or_else(|| RecordingError::None(self.folder.clone()))
     }
 
     fn meta(&mut self) -> Result<Vec<u8>, RecordingError> {
         let live = self.live;
         let recording = self.recording()?;
+        recording.renew()?;
         let frames: Vec<usize> = (0..recording.trajectory.frames()).collect();
         Ok(recording.meta(&frames, &blocks(recording, &frames), 1, live).to_string().into_bytes())
     }
 
     fn block(&mut self, number: usize) -> Result<Option<Vec<u8>>, RecordingError> {
         let recording = self.recording()?;
+        recording.renew_frames()?;
         let frames: Vec<usize> = (0..recording.trajectory.frames()).collect();
         let blocks = blocks(recording, &frames);
         let Some(range) = blocks.get(number) else { return Ok(None) };
