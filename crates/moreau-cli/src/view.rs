@@ -24,7 +24,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     // What is wrong with it is said here rather than in the browser.
     Recording::open(&args.run).map_err(Failure::file)?;
     let stop = progress::stop_on_ctrl_c()?;
-    let mut viewer = Viewer::listen(&args.run, args.port, false).map_err(Failure::file)?;
+    let mut viewer = Viewer::listen(&args.run, args.port).map_err(Failure::file)?;
     say(&format!("open {}\nCtrl-C ends\n", viewer.url()))?;
     viewer.serve(stop, &AtomicBool::new(false), |_| {});
     Ok(())
@@ -32,7 +32,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Begins to serve a run that is about to begin; gives the server and tells where it is.
 pub(crate) fn begin(folder: &Path) -> Result<Viewer, Failure> {
-    let viewer = Viewer::listen(folder, 0, true).map_err(Failure::file)?;
+    let viewer = Viewer::listen(folder, 0).map_err(Failure::file)?;
     say(&format!("open {}\n", viewer.url()))?;
     Ok(viewer)
 }

@@ -4,6 +4,7 @@ use crate::picture::flat::{Drawing, Figure, Link, Outline, Window};
 use crate::picture::{Body, Camera, Error, Image, Mesh, Picture, Segment, Shape as Form, colour};
 use crate::recording::{Drawn, Recording, RecordingError};
 use moreau::scene::AnyWorld;
+use moreau::solve::block::norm;
 use moreau::space::{Plane, Solid, Space};
 use moreau::trajectory::TrajectoryFrame;
 use moreau::world::World;
@@ -118,7 +119,7 @@ const WIDEST: f64 = 5.0;
 fn rods<const D: usize>(run: &Recording, frame: &TrajectoryFrame) -> Vec<Rod<D>> {
     let (radius, (points, _)) = (&run.trajectory.header().radius, frame.point.as_chunks::<D>());
     let (places, _) = frame.position.as_chunks::<D>();
-    let impulses: Vec<f64> = frame.impulse.chunks(D).map(|p| p.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+    let impulses = lengths::<D>(&frame.impulse);
     let pressed = impulses.iter().filter(|&&p| p > 0.0);
     let mean = pressed.clone().sum::<f64>() / pressed.count().max(1) as f64;
     let rod = |(c, &impulse): (usize, &f64)| {
@@ -132,6 +133,11 @@ fn rods<const D: usize>(run: &Recording, frame: &TrajectoryFrame) -> Vec<Rod<D>>
     impulses.iter().enumerate().filter(|&(_, &impulse)| impulse > 0.0).map(rod).collect()
 }
 
+/// The lengths of vectors that follow on each other.
+fn lengths<const D: usize>(numbers: &[f64]) -> Vec<f64> {
+    numbers.as_chunks::<D>().0.iter().map(norm).collect()
+}
+
 /// The mean bounding radius, m.
 fn size(run: &Recording) -> f64 {
     let header = run.trajectory.header();
@@ -143,7 +149,7 @@ fn size(run: &Recording) -> f64 {
 /// The colour of each body.
 fn colours<const D: usize>(run: &Recording, frame: &TrajectoryFrame, look: &Look) -> Vec<[u8; 3]> {
     let header = run.trajectory.header();
-    let speed: Vec<f64> = frame.velocity.chunks(D).map(|v| v.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+    let speed = lengths::<D>(&frame.velocity);
     let most = speed.iter().zip(&header.free).filter(|&(v, &free)| free && v.is_finite()).map(|(v, _)| *v).fold(0.0, f64::max);
     let of = |i: usize| match look.colour {
         _ if !header.free[i] => [200, 203, 208],

@@ -58,15 +58,16 @@ pub struct Viewer {
     folder: PathBuf,
     /// Opened with the first request: a run that has just begun has no file yet.
     recording: Option<Recording>,
+    /// Whether the run went on when the request at hand came.
     live: bool,
 }
 
 impl Viewer {
-    /// Listens for the run in a folder; 0 is any free port. `live` says that the run goes on.
+    /// Listens for the run in a folder; 0 is any free port.
     ///
     /// # Errors
     /// Where the port is taken.
-    pub fn listen(folder: &Path, port: u16, live: bool) -> Result<Self, ServeError> {
+    pub fn listen(folder: &Path, port: u16) -> Result<Self, ServeError> {
         let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
         let wrong = |reason: String| ServeError::Listen { address, reason };
         let server = Server::http(address).map_err(|error| wrong(error.to_string()))?;
@@ -74,7 +75,7 @@ impl Viewer {
         getrandom::fill(&mut bytes).map_err(|error| wrong(error.to_string()))?;
         let token = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
         let address = server.server_addr().to_ip().unwrap_or(address);
-        Ok(Self { server, address, token, folder: folder.to_owned(), recording: None, live })
+        Ok(Self { server, address, token, folder: folder.to_owned(), recording: None, live: false })
     }
 
     /// Where a browser finds the page. Who knows it can see the run.

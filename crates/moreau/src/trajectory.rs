@@ -69,11 +69,6 @@ impl TrajectoryError {
     }
 }
 
-/// Numbers of a body in a frame: of position and velocity, of rotation, of spin.
-const fn widths(dimension: usize) -> [usize; 3] {
-    if dimension == 2 { [2, 2, 1] } else { [3, 4, 3] }
-}
-
 /// Frames and rows that are written together.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
@@ -104,6 +99,11 @@ pub const REALS: [&str; 8] = [
     "contacts/impulse",
     "contacts/gap",
 ];
+
+/// How many numbers a body or a contact has in each of [`REALS`].
+const fn widths(dimension: usize) -> [usize; REALS.len()] {
+    if dimension == 2 { [2, 2, 2, 1, 2, 2, 2, 1] } else { [3, 4, 3, 3, 3, 3, 3, 1] }
+}
 
 /// The datasets of a contact's bodies.
 const PAIRS: [&str; 2] = ["contacts/a", "contacts/b"];

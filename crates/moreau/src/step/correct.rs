@@ -79,10 +79,15 @@ fn may_be_too_deep<S: Space<D, N>, const D: usize, const N: usize>(
     part: f64,
 ) -> bool {
     let bodies = &world.bodies;
-    let way = |i: usize| world.settings.h * world.settings.theta * speed(bodies, i, &bodies.velocity[i]);
+    let way = |i: usize| world.settings.h * world.settings.theta * way_of(bodies, i, &bodies.velocity[i]);
     let nearer = |contact: &Contact<D>| way(contact.key.a as usize) + way(contact.key.b as usize) - contact.gap;
     // What was out of reach may have come within.
     (0..bodies.len()).any(|i| way(i) > work.reach[i]) || work.found.iter().any(|c| nearer(c) > allowed(bodies, c, part))
+}
+
+/// No point of body `i` goes farther than this in the time in which it is displaced so (m and rad; or a velocity, then in a second).
+fn way_of<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, i: usize, displacement: &[f64; N]) -> f64 {
+    speed::<D, N>(bodies.shape[i].bounding_radius().unwrap_or(0.0), displacement)
 }
 
 /// How deep two bodies may overlap, m.
@@ -95,7 +100,7 @@ fn allowed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D,
 /// how deep overlaps are.
 fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, work: &mut Workspace<S, D, N>, part: f64) {
     let (bodies, correction) = (&world.bodies, &mut work.correction);
-    let reach = |i: usize| margins(bodies, i, part).iter().sum::<f64>() + speed(bodies, i, &correction.displacement[i]);
+    let reach = |i: usize| margins(bodies, i, part).iter().sum::<f64>() + way_of(bodies, i, &correction.displacement[i]);
     correction.reach.clear();
     correction.reach.extend((0..bodies.len()).map(reach));
     let driven = |i: usize| !bodies.is_free(i);

@@ -124,9 +124,8 @@ pub(super) fn margins<S: Space<D, N>, const D: usize, const N: usize>(bodies: &B
     [if bodies.is_free(i) { part * radius } else { 0.0 }, rounding(radius, far)]
 }
 
-/// No point of body `i` is faster than this at its velocity `v`, m/s; of one without bounds, than its middle.
-pub(super) fn speed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, i: usize, v: &[f64; N]) -> f64 {
-    let radius = bodies.shape[i].bounding_radius().unwrap_or(0.0);
+/// No point of a body of this bounding radius (m) is faster than this at its velocity, m/s.
+pub(super) fn speed<const D: usize, const N: usize>(radius: f64, v: &[f64; N]) -> f64 {
     let length = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
     length(&v[..D]) + length(&v[D..]) * radius
 }

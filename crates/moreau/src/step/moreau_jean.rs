@@ -163,7 +163,8 @@ fn reach<S: Space<D, N>, const D: usize, const N: usize>(
     if !approach {
         return rounding;
     }
-    let fastest = speed(&world.bodies, i, free).max(speed(&world.bodies, i, &world.bodies.velocity[i]));
+    let radius = world.bodies.shape[i].bounding_radius().unwrap_or(0.0);
+    let fastest = speed::<D, N>(radius, free).max(speed::<D, N>(radius, &world.bodies.velocity[i]));
     2.0 * h * fastest + beside + rounding
 }
 

@@ -103,8 +103,7 @@ impl Trajectory {
         }
         let bodies = self.header.radius.len() as u64;
         let (first, count) = (self.first_contact(i), self.contacts(i));
-        let [d, turn, spin] = widths(self.header.dimension);
-        let mut reals = [d, turn, d, spin, d, d, d, 1].into_iter().zip(REALS).map(|(width, name)| {
+        let mut reals = widths(self.header.dimension).into_iter().zip(REALS).map(|(width, name)| {
             let width = width as u64;
             let (start, rows) = if name.starts_with("frames/") { (i as u64 * bodies, bodies) } else { (first, count) };
             self.rows(name, [start * width, rows * width], Dataset::read_f64_rows)

@@ -128,10 +128,10 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
     bodies.create_dataset("material").with_u16_data(&header.material);
     bodies.create_dataset("free").with_u8_data(&header.free.iter().map(|&free| u8::from(free)).collect::<Vec<_>>());
     file.add_group(bodies.finish());
-    let (count, [d, turn, spin]) = (header.radius.len(), widths(header.dimension));
+    let count = header.radius.len();
     let mut frames = file.create_group("frames");
     let mut contacts = file.create_group("contacts");
-    for (name, width) in REALS.iter().zip([d, turn, d, spin, d, d, d, 1]) {
+    for (name, width) in REALS.iter().zip(widths(header.dimension)) {
         let (of_frames, name) = name.split_once('/').map_or((false, *name), |(group, name)| (group == "frames", name));
         // Whole frames of bodies, where they are small enough.
         let one = if of_frames { count * width } else { width };
