@@ -24,12 +24,12 @@ pub(super) fn collide<'a, A, B>(
     let (a, b) = (Core::from(a), Core::from(b));
     let grown = a.grown + b.grown;
     let (from_a, from_b) = (Seen::new((b, pose_b), pose_a), Seen::new((a, pose_a), pose_b));
-    let ((side_a, apart_a), (side_b, apart_b)) = (farthest(&a, &from_a), farthest(&b, &from_b));
+    let level = LEVEL * (a.radius + b.radius);
+    let ((side_a, apart_a), (side_b, apart_b)) = (farthest(&a, &from_a, level), farthest(&b, &from_b, level));
     // Not `>`: what is nowhere touches nothing.
     if !(apart_a <= reach + grown && apart_b <= reach + grown) {
         return;
     }
-    let level = LEVEL * (a.radius + b.radius);
     let (facing, pose, sign) = if apart_b > apart_a + level {
         (Facing { side: side_b, own: b, other: from_b, first: false, level }, pose_b, -1.0)
     } else {
@@ -70,15 +70,16 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// The side of a core beyond which another one is farthest, and how far; negative where it reaches behind each side.
-fn farthest(core: &Core<'_>, other: &Seen<'_>) -> (usize, f64) {
+/// The side of a core beyond which another one is farthest, and how far; negative where it reaches behind each side. Of sides that are level
+/// the first: rounding must not choose the normal of two corners that touch.
+fn farthest(core: &Core<'_>, other: &Seen<'_>, level: f64) -> (usize, f64) {
     let mut best = (0, f64::NEG_INFINITY);
     for (i, side) in core.sides.iter().enumerate() {
         // Along the other's own axes, so that only what is found has to be turned.
         let inward = Plane::unrotate(other.rotation, side.normal);
         let nearest = other.core.vertices().map(|vertex| dot(inward, vertex)).fold(f64::INFINITY, f64::min);
         let apart = nearest + dot(side.normal, sub(other.position, side.start));
-        if apart > best.1 || apart.is_nan() {
+        if apart > best.1 + level || apart.is_nan() {
             best = (i, apart);
         }
     }

@@ -48,6 +48,16 @@ fn features_of_blocks_at_rest_do_not_flicker() {
 }
 
 #[test]
+fn corners_that_touch_have_one_normal_whatever_the_rounding() {
+    for k in 0..200 {
+        let tiny = |seed: i32| f64::from((k * 7919 + seed * 104_729) % 1000 - 500_i32) * 1e-15;
+        let pose = at([2.0 + tiny(1), 4.0 + tiny(2)], turned(tiny(3)));
+        let found = contacts(&rectangle(), &at([tiny(5), tiny(6)], turned(tiny(7))), &rectangle(), &pose, 1e-9);
+        assert!(found.len() == 1 && (found[0].2[0] - 1.0).abs() < 1e-12 && found[0].3.abs() < 1e-11, "{found:?}");
+    }
+}
+
+#[test]
 fn a_corner_stands_on_a_side_at_one_point_and_corners_have_the_direction_between_them() {
     let diamond = at([0.3, 2.0 + 5.0_f64.sqrt() - 0.1], turned(PI / 2.0 - 2.0_f64.atan()));
     let found = contacts(&rectangle(), &at([0.0; 2], UP), &rectangle(), &diamond, 0.0);

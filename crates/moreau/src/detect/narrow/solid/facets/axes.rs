@@ -34,8 +34,8 @@ pub(super) fn best<A: Faceted, B: Faceted>(
     level: f64,
     reach: f64,
 ) -> Option<(Axis, f64)> {
-    let (face_a, apart_a) = farthest(a, b, reach)?;
-    let (face_b, apart_b) = farthest(b, a, reach)?;
+    let (face_a, apart_a) = farthest(a, b, level, reach)?;
+    let (face_b, apart_b) = farthest(b, a, level, reach)?;
     let (mut axis, mut apart) = (Axis::FaceOfFirst(face_a), apart_a);
     if apart_b > apart + level {
         (axis, apart) = (Axis::FaceOfSecond(face_b), apart_b);
@@ -53,8 +53,9 @@ fn support(vertices: &[[f64; 3]], direction: [f64; 3]) -> f64 {
     vertices.iter().map(|&vertex| dot(direction, vertex)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The face of `body` beyond which `other` is farthest, and how far; `None` if that is beyond `reach`, or nowhere.
-fn farthest<A: Faceted, B: Faceted>(body: &Seen<'_, A>, other: &Seen<'_, B>, reach: f64) -> Option<(usize, f64)> {
+/// The face of `body` beyond which `other` is farthest, and how far; of those that are level the first, so that rounding does not choose the normal
+/// of bodies that share an edge. `None` if that is beyond `reach`, or nowhere.
+fn farthest<A: Faceted, B: Faceted>(body: &Seen<'_, A>, other: &Seen<'_, B>, level: f64, reach: f64) -> Option<(usize, f64)> {
     let mut best = (0, f64::NEG_INFINITY);
     for (face, &normal) in body.normals.iter().enumerate() {
         let corner = body.corner(face, 0);
@@ -64,7 +65,7 @@ fn farthest<A: Faceted, B: Faceted>(body: &Seen<'_, A>, other: &Seen<'_, B>, rea
         if nearest.is_nan() || nearest > reach {
             return None;
         }
-        if nearest > best.1 {
+        if nearest > best.1 + level {
             best = (face, nearest);
         }
     }

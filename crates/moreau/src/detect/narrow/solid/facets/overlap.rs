@@ -87,7 +87,7 @@ pub(super) fn overlap<A: Faceted, B: Faceted>(
     }
     for i in 0..ours.len() {
         for j in 0..theirs.len() {
-            if let Some(place) = crossing(ours.side(i), theirs.side(j)) {
+            if let Some(place) = crossing(ours.side(i), theirs.side(j), level) {
                 let (r, e) = (theirs.corner(j), theirs.corner(j + 1));
                 let at = along(r, place, sub(e, r));
                 let (i, j) = (ours.index(i), theirs.index(j));
@@ -98,13 +98,17 @@ pub(super) fn overlap<A: Faceted, B: Faceted>(
     }
 }
 
-/// Where on the second segment the first one crosses it, from 0 to 1.
-fn crossing([p, q]: [[f64; 2]; 2], [r, e]: [[f64; 2]; 2]) -> Option<f64> {
+/// Where on the second segment the first one crosses it, from 0 to 1. An end that is within `level` of the other's line is a point itself, and
+/// where two sides lie on one line rounding alone says where they cross.
+fn crossing([p, q]: [[f64; 2]; 2], [r, e]: [[f64; 2]; 2], level: f64) -> Option<f64> {
     let side = |from: [f64; 2], to: [f64; 2], x: [f64; 2]| {
         let (way, out) = (sub(to, from), sub(x, from));
         way[0] * out[1] - way[1] * out[0]
     };
+    let crosses = |[r, e]: [[f64; 2]; 2], before: f64, after: f64| {
+        let least = level * dot(sub(e, r), sub(e, r)).sqrt();
+        before * after < 0.0 && before.abs() > least && after.abs() > least
+    };
     let (before, after) = (side(p, q, r), side(p, q, e));
-    let crosses = before * after < 0.0 && side(r, e, p) * side(r, e, q) < 0.0;
-    crosses.then(|| before / (before - after))
+    (crosses([p, q], before, after) && crosses([r, e], side(r, e, p), side(r, e, q))).then(|| before / (before - after))
 }

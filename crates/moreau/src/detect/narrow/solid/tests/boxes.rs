@@ -54,6 +54,27 @@ fn features_of_boxes_at_rest_do_not_flicker() {
 }
 
 #[test]
+fn what_touches_along_an_edge_touches_at_its_ends() {
+    for (shift, ends) in [(0.0, [-1.0, 1.0]), (0.3, [-0.7, 1.0])] {
+        let mut first: Option<(Vec<u64>, [f64; 3])> = None;
+        for k in 0..200 {
+            let tiny = |seed: i32| f64::from((k * 7919 + seed * 104_729) % 1000 - 500_i32) * 1e-15;
+            let turn = |seed: i32| DQuat::from_xyzw(tiny(seed), tiny(seed + 1), tiny(seed + 2), 1.0).normalize();
+            let beside = at([2.0 + tiny(1), shift + tiny(2), 2.0 + tiny(3)], turn(4));
+            let found = contacts(CUBE, at([tiny(8), tiny(9), tiny(10)], turn(11)), CUBE, beside, 1e-9);
+            let features: Vec<u64> = found.iter().map(|contact| contact.0).collect();
+            let (known, normal) = first.get_or_insert((features.clone(), found[0].2));
+            assert!(features.len() == 2 && *known == features, "{shift}: {found:x?}");
+            let mut along: Vec<f64> = found.iter().map(|(_, p, ..)| p[1]).collect();
+            along.sort_by(f64::total_cmp);
+            assert!(along.iter().zip(ends).all(|(y, end)| (y - end).abs() < 1e-11), "{shift}: {along:?}");
+            let flat = |n: &[f64; 3]| (0..3).all(|i| (n[i] - normal[i]).abs() < 1e-11);
+            assert!(found.iter().all(|(_, _, n, _)| flat(n)), "{shift}: {found:?}");
+        }
+    }
+}
+
+#[test]
 fn edges_cross_at_one_point() {
     // One cube on its edge along x, another on its edge along y above it.
     let turned = |axis: DVec3| DQuat::from_axis_angle(axis, std::f64::consts::FRAC_PI_4);
