@@ -58,12 +58,21 @@ pub const GLOBAL_METHODS: &[(GlobalMethod, Row)] = &[
     ),
     (GlobalMethod::Cpg, Row { name: "cpg", about: "conjugate projected gradients: products with W only" }),
     (GlobalMethod::Apgd, Row { name: "apgd", about: "projected gradients with Nesterov's momentum: products with W only" }),
-    (GlobalMethod::Admm, Row { name: "admm", about: "splitting: W is factorised once, a step solves with it and projects" }),
+    (
+        GlobalMethod::Admm,
+        Row {
+            name: "admm",
+            about: "splitting: W is factorised once, through the bodies where they are fewer, a step solves with it and projects",
+        },
+    ),
     (
         GlobalMethod::Lemke,
         Row { name: "lemke", about: "exact pivoting: small problems without friction or with it in the plane" },
     ),
-    (GlobalMethod::Auto, Row { name: "auto", about: "accelerated, then active_set where that is not enough; says what it did" }),
+    (
+        GlobalMethod::Auto,
+        Row { name: "auto", about: "accelerated, then active_set or, for blocks that stand on faces, admm; says what it did" },
+    ),
 ];
 
 impl GlobalMethod {

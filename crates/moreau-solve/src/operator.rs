@@ -36,6 +36,11 @@ pub trait Operator<const D: usize>: Sync {
     /// W in stored blocks, for methods that factorise it.
     fn stored(&self) -> Cow<'_, Delassus<D>>;
 
+    /// J of W = J Jᵀ, for methods that factorise through the bodies; `None` where the operator knows W alone.
+    fn root(&self) -> Option<Root> {
+        None
+    }
+
     /// The operator as contacts of round bodies, if it is one: such contacts can be visited several at a time.
     fn balls(&self) -> Option<&Balls<D>> {
         None
@@ -43,6 +48,15 @@ pub trait Operator<const D: usize>: Sync {
 
     /// One visit: gives W_cc and (W r)_c to `visit`, and adds the change of the impulse that it returns.
     fn relax(&self, state: &mut Self::State, c: usize, visit: impl Visit<D>);
+}
+
+/// J of W = J Jᵀ: a row for each component of each contact, a column for each degree of freedom of a body.
+#[derive(Clone, Debug, Default)]
+pub struct Root {
+    /// How many columns it has.
+    pub columns: usize,
+    /// Row, column and value of what is not zero.
+    pub entries: Vec<(usize, usize, f64)>,
 }
 
 /// What is done at a visit. A type, not a closure, since a closure cannot insist on being compiled into the sweep: left out of it, a

@@ -10,7 +10,8 @@
 //!   ϱ is changed where ‖D (x − z)‖ and ‖ϱ D (z⁺ − z)‖ differ much, each relative to what it is a part of
 //! ```
 //!
-//! The impulses are z. W may be rank deficient. Where it is not symmetric its LU factors take the place of Cholesky's. ϱ is a
+//! The impulses are z. W may be rank deficient; where its root J is known and has fewer columns than rows the factors are those of a matrix of the
+//! bodies (`through_bodies`). Where it is not symmetric its LU factors take the place of Cholesky's. ϱ is a
 //! number: D has the units of W.
 //!
 //! Reference: Boyd et al. 2011; Stellato et al. 2020 (choice of ϱ); Acary, Armand & Rousseau for Coulomb's law. For problems of
@@ -18,12 +19,14 @@
 //! or a factor of more than [`FILL`] entries; and not the method for tolerances near rounding.
 
 mod factors;
+mod through_bodies;
 
 use super::Work;
 use super::steps::{Best, product, scales};
 use crate::block::{Vector, axpy, norm, sub};
-use crate::{Operator, Status};
-use factors::System;
+use crate::{Operator, Problem, Status};
+use factors::{System, ThroughContacts};
+use through_bodies::ThroughBodies;
 
 /// How many unknowns W may have.
 const LIMIT: usize = 60_000;
@@ -52,18 +55,22 @@ struct Variables<const D: usize> {
 
 /// Steps until the judge says stop.
 pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
-    let Some(mut system) = System::new(work.problem) else { return Status::Unsuited };
     for (r, cone) in work.r.iter_mut().zip(work.problem.cones) {
         *r = cone.nearest(r);
     }
     let mut best = Best::new(work);
+    // At rest the impulses of the last step mostly are the answer, and nothing need be factorised.
+    if let Some(status) = work.judge.certify(&mut work.scratch.state, work.r, None) {
+        return status;
+    }
+    let Some(mut system) = system(work.problem) else { return Status::Unsuited };
     let mut variables = Variables::new(work);
     let (mut wait, mut changed_at) = (FIRST_WAIT, work.judge.sweeps);
     if !system.factorise(variables.rho) {
         return Status::Stalled;
     }
     loop {
-        variables.step(work, &system);
+        variables.step(work, &*system);
         if let Some(status) = best.after_step(work) {
             return status;
         }
@@ -76,6 +83,26 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
             changed_at = work.judge.sweeps;
             wait += wait / 2;
         }
+    }
+}
+
+/// Whether impulses are so far from unique that factors through the bodies are the way: twice as many as motions of the bodies.
+pub(super) fn suits<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> bool {
+    let Some(root) = problem.operator.root() else { return false };
+    let mut moved = vec![false; root.columns];
+    root.entries.iter().for_each(|&(_, column, _)| moved[column] = true);
+    let unknowns = problem.len() * D;
+    unknowns <= LIMIT && 2 * moved.iter().filter(|moved| **moved).count() <= unknowns
+}
+
+/// W + ϱ D in the smaller of its two forms; `None` where the problem is too large.
+fn system<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Option<Box<dyn System<D>>> {
+    if problem.len() * D > LIMIT {
+        return None;
+    }
+    match ThroughBodies::new(problem) {
+        Some(system) => Some(Box::new(system)),
+        None => Some(Box::new(ThroughContacts::new(problem)?)),
     }
 }
 
@@ -94,7 +121,7 @@ impl<const D: usize> Variables<D> {
         Self { w, rho, x: u, lambda, free: problem.q.to_vec(), primal: 0.0, dual: 0.0 }
     }
 
-    fn step<O: Operator<D>>(&mut self, work: &mut Work<'_, O, D>, system: &System) {
+    fn step<O: Operator<D>>(&mut self, work: &mut Work<'_, O, D>, system: &dyn System<D>) {
         let problem = work.problem;
         for c in 0..problem.len() {
             let hat = self.lambda[c].map(|x| -self.rho * self.w[c] * x);

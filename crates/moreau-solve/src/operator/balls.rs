@@ -11,7 +11,7 @@
 //! in the axes of the world, where a ball's inertia is the same number J in all directions. Disks are balls that stay in a plane: their
 //! velocities have no third component, their spins no others. One component a contact (K = 1) leaves the spins out.
 
-use super::{Add, Delassus, MatrixFree, NONE, Operator, Visit, colouring};
+use super::{Add, Delassus, MatrixFree, NONE, Operator, Root, Visit, colouring};
 use crate::block::{Matrix, Vector};
 use crate::tasks;
 use std::borrow::Cow;
@@ -192,6 +192,10 @@ impl<const K: usize> Operator<K> for Balls<K> {
 
     fn stored(&self) -> Cow<'_, Delassus<K>> {
         Cow::Owned(Delassus::assemble(&self.rows()))
+    }
+
+    fn root(&self) -> Option<Root> {
+        self.rows().root()
     }
 
     fn colour(&self, order: &mut [u32]) {

@@ -1,6 +1,6 @@
 //! W through the bodies: never formed, one contact touches two bodies.
 
-use super::{Add, Delassus, Operator, Visit, colouring};
+use super::{Add, Delassus, Operator, Root, Visit, colouring};
 use crate::block::{Matrix, Vector};
 use std::borrow::Cow;
 
@@ -151,6 +151,17 @@ impl<const D: usize, const N: usize> Operator<D> for MatrixFree<D, N> {
 
     fn stored(&self) -> Cow<'_, Delassus<D>> {
         Cow::Owned(Delassus::assemble(self))
+    }
+
+    fn root(&self) -> Option<Root> {
+        let mut entries = Vec::with_capacity(2 * D * N * self.contacts.len());
+        for (c, contact) in self.contacts.iter().enumerate() {
+            for (&body, rows) in contact.pair.iter().zip(&contact.rows).filter(|(body, _)| **body != NONE) {
+                let entry = |(i, k): (usize, usize)| (c * D + i, body as usize * N + k, rows[i][k]);
+                entries.extend((0..D * N).map(|place| entry((place / N, place % N))).filter(|(.., x)| *x != 0.0));
+            }
+        }
+        Some(Root { columns: self.bodies * N, entries })
     }
 
     fn colour(&self, order: &mut [u32]) {

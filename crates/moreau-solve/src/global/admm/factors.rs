@@ -1,4 +1,4 @@
-//! W + ϱ D, factorised.
+//! W + ϱ D, factorised as it is.
 //!
 //! All is divided by the greatest w_c, so that the same problem in other units has the same factors to the bit. An unknown that
 //! is zero by its law, or that impulses do not move, has a row of its own and stays as it is.
@@ -10,14 +10,38 @@ use crate::{Cone, Operator, Problem};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::cholesky::factorize_symbolic_cholesky;
 use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SymbolicSparseColMatRef, Triplet};
 use faer::{ColMut, Side};
 
 /// The asymmetry of W, relative to its greatest entry, that is taken for rounding.
 const ROUNDING: f64 = 1e-13;
 
+/// What solves with W + ϱ D.
+pub(super) trait System<const D: usize> {
+    /// Makes the factors for this ϱ; `false` where there are none.
+    fn factorise(&mut self, rho: f64) -> bool;
+
+    /// x ← (W + ϱ D)⁻¹ x; what stays has the impulse of `r`.
+    fn solve(&self, x: &mut [Vector<D>], r: &[Vector<D>]);
+}
+
+/// D for each unknown, zero where it stays, and the greatest of them.
+pub(super) fn weights<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> (Vec<f64>, f64) {
+    let w = scales(problem);
+    let greatest = w.iter().copied().fold(0.0, f64::max);
+    let frictionless = |c: usize| problem.cones[c] == Cone::Coulomb(0.0);
+    let zero = |k: usize| !problem.cones[k / D].binds(k % D) || (!k.is_multiple_of(D) && frictionless(k / D));
+    ((0..problem.len() * D).map(|k| if zero(k) { 0.0 } else { w[k / D] }).collect(), greatest)
+}
+
+/// `None` where the factor of a matrix of this pattern has too many entries.
+pub(super) fn fits(pattern: SymbolicSparseColMatRef<'_, usize>) -> Option<()> {
+    let fill = factorize_symbolic_cholesky(pattern, Side::Lower, Default::default(), Default::default()).ok()?.len_val();
+    (fill <= FILL).then_some(())
+}
+
 /// The matrix with its factors.
-pub(super) struct System {
+pub(super) struct ThroughContacts {
     entries: Vec<Triplet<usize, usize, f64>>,
     /// D for each unknown, zero where it stays.
     weights: Vec<f64>,
@@ -36,19 +60,15 @@ enum Factors {
     Any(Box<Lu<usize, f64>>),
 }
 
-impl System {
+impl ThroughContacts {
     /// `None` where the problem is too large.
     pub(super) fn new<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Option<Self> {
         let unknowns = problem.len() * D;
         if unknowns > LIMIT {
             return None;
         }
-        let w = scales(problem);
-        let greatest = w.iter().copied().fold(0.0, f64::max);
-        let frictionless = |c: usize| problem.cones[c] == Cone::Coulomb(0.0);
-        let zero = |k: usize| !problem.cones[k / D].binds(k % D) || (!k.is_multiple_of(D) && frictionless(k / D));
-        let weight = |k: usize| if zero(k) { 0.0 } else { w[k / D] / greatest };
-        let weights: Vec<f64> = (0..unknowns).map(|k| if greatest > 0.0 { weight(k) } else { 0.0 }).collect();
+        let (weights, greatest) = weights(problem);
+        let weights: Vec<f64> = weights.into_iter().map(|w| if greatest > 0.0 { w / greatest } else { 0.0 }).collect();
         let mut entries: Vec<_> = (0..unknowns).filter(|&k| weights[k] == 0.0).map(|k| Triplet::new(k, k, 1.0)).collect();
         for (c, d, block) in problem.operator.stored().blocks() {
             for (i, row) in block.iter().enumerate() {
@@ -62,10 +82,7 @@ impl System {
         }
         let matrix = SparseColMat::try_new_from_triplets(unknowns, unknowns, &entries).ok()?;
         let pattern = matrix.symbolic();
-        let fill = factorize_symbolic_cholesky(pattern, Side::Lower, Default::default(), Default::default()).ok()?.len_val();
-        if fill > FILL {
-            return None;
-        }
+        fits(pattern)?;
         let symbolic = if symmetric(&matrix) {
             Symbolic::Symmetric(SymbolicLlt::try_new(pattern, Side::Lower).ok()?)
         } else {
@@ -73,9 +90,10 @@ impl System {
         };
         Some(Self { entries, weights, greatest, symbolic, factors: None })
     }
+}
 
-    /// Makes the factors for this ϱ; `false` where there are none.
-    pub(super) fn factorise(&mut self, rho: f64) -> bool {
+impl<const D: usize> System<D> for ThroughContacts {
+    fn factorise(&mut self, rho: f64) -> bool {
         let n = self.weights.len();
         let shifted = self.entries.iter().map(|e| {
             let shift = if e.row == e.col { rho * self.weights[e.row] } else { 0.0 };
@@ -95,8 +113,7 @@ impl System {
         self.factors.is_some()
     }
 
-    /// x ← (W + ϱ D)⁻¹ x; what stays has the impulse of `r`.
-    pub(super) fn solve<const D: usize>(&self, x: &mut [Vector<D>], r: &[Vector<D>]) {
+    fn solve(&self, x: &mut [Vector<D>], r: &[Vector<D>]) {
         for ((x, r), &weight) in x.as_flattened_mut().iter_mut().zip(r.as_flattened()).zip(&self.weights) {
             *x = if weight > 0.0 { *x / self.greatest } else { *r };
         }
