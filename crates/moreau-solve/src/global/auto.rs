@@ -8,18 +8,53 @@
 //!   from the third time on, the sweeps are in a shuffled order and with the exact local solver
 //! ```
 //!
+//! Where contacts are many more than the motion of the bodies can tell apart, as of blocks that stand on faces, their impulses are not unique and the
+//! active set method has no matrix to invert; W + ϱ D, through the bodies, is small:
+//!
+//! ```text
+//! repeat until the criterion is met, each time with twice as many:
+//!   accelerated sweeps, at first 20
+//!   steps of ADMM, at first 60
+//! ```
+//!
 //! Sweeps are by far the cheapest and end most problems; a step costs some fifty of them and ends those on which they crawl. Where both
 //! stall, another start or another order of the contacts is another method: solutions are the same, the paths to them are not.
 
-use super::{Work, active_set, keep};
+use super::{Work, active_set, admm, keep};
 use crate::report::Stage;
 use crate::{GlobalMethod, LocalMethod, Operator, Order, Status};
 
 /// Sweeps before the first step, however large the problem is.
 const MOST_FIRST_SWEEPS: u64 = 400;
 
+/// Sweeps and steps at first where impulses are far from unique.
+const FIRST_INDETERMINATE: [u64; 2] = [20, 60];
+
 /// Stages until the judge says stop; the best impulses of all are the answer.
 pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
+    if admm::suits(work.problem) { indeterminate(work) } else { determinate(work) }
+}
+
+fn indeterminate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
+    let (mut best, mut answer) = (f64::INFINITY, Vec::new());
+    let mut budgets = FIRST_INDETERMINATE;
+    loop {
+        for (method, budget) in [GlobalMethod::Accelerated, GlobalMethod::Admm].into_iter().zip(&mut budgets) {
+            let end = stage(work, method, |work| limited(work, method, *budget));
+            if work.judge.error < best || answer.is_empty() {
+                best = work.judge.error;
+                keep(&mut answer, work.r);
+            }
+            // Where factors are too large or fail, sweeps go on.
+            if let Some(status) = end.filter(|status| !matches!(status, Status::Unsuited | Status::Stalled)) {
+                return ended(work, status, best, &answer);
+            }
+            *budget *= 2;
+        }
+    }
+}
+
+fn determinate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
     let unknowns = work.problem.len() * D;
     let given = work.settings;
     let mut budget = (100 + unknowns as u64 / 4).min(MOST_FIRST_SWEEPS);
