@@ -1,9 +1,12 @@
 //! Charts, in one style: colours that everybody tells apart, as SVG, PNG or PDF.
 
+use crate::failure::Failure;
+use clap::ValueEnum;
 use kuva::backend::pdf::PdfBackend;
 use kuva::backend::raster::RasterBackend;
 use kuva::prelude::*;
 use kuva::render::figure::Figure;
+use kuva::render::render::Scene;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -22,24 +25,52 @@ pub(crate) struct Chart {
     layout: Layout,
 }
 
-impl Chart {
-    /// As SVG.
-    pub(crate) fn svg(self) -> String {
-        render_to_svg(self.plots, self.layout)
+/// What a figure is written as.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Form {
+    Svg,
+    Png,
+    Pdf,
+}
+
+impl Form {
+    /// The one that the name of a file asks for.
+    pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        Self::from_str(&ending, true)
+            .map_err(|_| Failure::usage(format!("{}: the name must end in .svg, .png or .pdf", path.display())))
+    }
+
+    /// The ending of its files.
+    pub(crate) fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Pdf => "pdf",
+        }
+    }
+
+    fn write(self, scene: &Scene) -> Result<Vec<u8>, Failure> {
+        match self {
+            Self::Svg => Ok(SvgBackend.render_scene(scene).into_bytes()),
+            Self::Png => RasterBackend::new().with_scale(2.0).render_scene(scene).map_err(Failure::file),
+            Self::Pdf => PdfBackend::new().render_scene(scene).map_err(Failure::file),
+        }
     }
 }
 
-/// Charts one below the other under a title, in the format that the name asks for.
-pub(crate) fn figure(title: &str, charts: Vec<Chart>, path: &Path) -> Result<Vec<u8>, String> {
+impl Chart {
+    /// The chart alone.
+    pub(crate) fn draw(self, form: Form) -> Result<Vec<u8>, Failure> {
+        form.write(&render_multiple(self.plots, self.layout))
+    }
+}
+
+/// Charts one below the other under a title.
+pub(crate) fn figure(title: &str, charts: Vec<Chart>, form: Form) -> Result<Vec<u8>, Failure> {
     let (plots, layouts): (Vec<_>, Vec<_>) = charts.into_iter().map(|chart| (chart.plots, chart.layout)).unzip();
     let figure = Figure::new(plots.len(), 1).with_title(title).with_plots(plots).with_layouts(layouts);
-    let scene = figure.with_cell_size(760.0, 300.0).render();
-    match path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
-        Some("svg") => Ok(SvgBackend.render_scene(&scene).into_bytes()),
-        Some("png") => RasterBackend::new().with_scale(2.0).render_scene(&scene),
-        Some("pdf") => PdfBackend::new().render_scene(&scene),
-        _ => Err("the name must end in .svg, .png or .pdf".to_owned()),
-    }
+    form.write(&figure.with_cell_size(760.0, 300.0).render())
 }
 
 /// Draws curves over a logarithmic vertical axis.

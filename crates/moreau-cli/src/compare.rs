@@ -1,6 +1,6 @@
 //! `moreau compare`: the paper's tables and its figure 4.
 
-use crate::chart::{Curve, semilog};
+use crate::chart::{Chart, Curve, Form, semilog};
 use crate::failure::{Failure, say, writable, write_whole};
 use crate::rho::{self, Study};
 use crate::table::aligned;
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// Write the table, and the errors by sweep, as CSV
     #[arg(long)]
     csv: Option<PathBuf>,
-    /// Draw error against sweep at the chosen step as SVG (the paper's figure 4)
+    /// Draw error against sweep at the chosen step (the paper's figure 4), as .svg, .png or .pdf
     #[arg(long)]
     plot: Option<PathBuf>,
     /// Show instead how the sweeps depend on ρ: values relative to the automatic one, such as 0.2,0.4,1
@@ -58,6 +58,7 @@ pub(crate) fn compare(args: &Args) -> Result<(), Failure> {
     for path in args.csv.iter().chain(&args.plot) {
         writable(path)?;
     }
+    args.plot.as_deref().map(Form::of).transpose()?;
     let world = scene::build(&scene)?;
     scene::pool(1)?.install(|| match &world {
         AnyWorld::Plane(world) => go(args, &scene, world),
@@ -97,7 +98,7 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(args: &Args, scene: &Scene
     }
     if let Some(path) = &args.plot {
         let title = format!("{}: error by sweep at step {at}", scene::name(&args.scene));
-        write_whole(path, figure(&title, world.settings.solver.criterion, &rows))?;
+        write_whole(path, figure(&title, world.settings.solver.criterion, &rows).draw(Form::of(path)?)?)?;
     }
     verdict(&rows, at)
 }
@@ -182,7 +183,7 @@ fn csv(rows: &[Row]) -> String {
 }
 
 /// Error against sweep.
-fn figure(title: &str, criterion: Criterion, rows: &[Row]) -> String {
+fn figure(title: &str, criterion: Criterion, rows: &[Row]) -> Chart {
     let label = if criterion == Criterion::EpsGlob { "ε_glob" } else { "scaled residual" };
     let curve = |row: &Row| Curve {
         name: name(row),
@@ -195,7 +196,7 @@ fn figure(title: &str, criterion: Criterion, rows: &[Row]) -> String {
             })
             .collect(),
     };
-    semilog(title, "sweeps of NLGS", label, &rows.iter().map(curve).collect::<Vec<_>>()).svg()
+    semilog(title, "sweeps of NLGS", label, &rows.iter().map(curve).collect::<Vec<_>>())
 }
 
 fn verdict(rows: &[Row], at: u64) -> Result<(), Failure> {

@@ -1,6 +1,6 @@
 //! `moreau plot`.
 
-use crate::chart::{Chart, Curve, figure, linear, semilog};
+use crate::chart::{Chart, Curve, Form, figure, linear, semilog};
 use crate::failure::{Failure, say, write_whole};
 use moreau_view::recording::Recording;
 use std::path::PathBuf;
@@ -34,28 +34,53 @@ enum What {
     Contacts,
     /// Where the time of each step went
     Seconds,
+    /// Contacts a body, of runs with measures
+    Coordination,
+    /// What part of their box bodies fill, of runs with measures
+    SolidFraction,
+    /// How far contacts prefer a direction, of runs with measures
+    Anisotropy,
+    /// The mean stress, of runs with measures
+    Pressure,
+}
+
+impl What {
+    /// Whether it comes from the measures.
+    fn is_measured(self) -> bool {
+        matches!(self, Self::Coordination | Self::SolidFraction | Self::Anisotropy | Self::Pressure)
+    }
 }
 
 /// Draws and writes.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let run = Recording::open(&args.run).map_err(Failure::file)?;
     let out = args.out.clone().unwrap_or_else(|| args.run.join("plot.svg"));
+    let form = Form::of(&out)?;
     if run.column("step").is_empty() {
         return Err(Failure::file(format!("{}: the trajectory has no step yet", args.run.display())));
     }
+    if args.what.iter().any(|what| what.is_measured()) && run.measure("time").is_empty() {
+        let what = "it has no measures.csv, or an empty one; run it again with \"measures\" among output.kinds";
+        return Err(Failure::usage(format!("{}: {what}", args.run.display())));
+    }
     let charts = args.what.iter().map(|&what| chart(&run, what)).collect();
-    let bytes = figure(&run.title(), charts, &out).map_err(|reason| Failure::usage(format!("{}: {reason}", out.display())))?;
-    write_whole(&out, &bytes)?;
+    write_whole(&out, figure(&run.title(), charts, form)?)?;
     say(&format!("{}: {} steps\n", out.display(), run.column("step").len()))
 }
 
-/// Curves of these columns over time.
+/// Curves of these columns of steps over time.
 fn curves(run: &Recording, columns: &[(&str, &str)]) -> Vec<Curve> {
-    let curve = |&(column, name): &(&str, &str)| {
-        let points = run.column("time").iter().copied().zip(run.column(column).iter().copied());
-        Curve { name: name.to_owned(), points: points.filter(|(_, y)| y.is_finite()).collect() }
-    };
-    columns.iter().map(curve).collect()
+    columns.iter().map(|&(column, name)| curve(name, run.column("time"), run.column(column))).collect()
+}
+
+/// The same of measures.
+fn measures(run: &Recording, columns: &[(&str, &str)]) -> Vec<Curve> {
+    columns.iter().map(|&(column, name)| curve(name, run.measure("time"), run.measure(column))).collect()
+}
+
+fn curve(name: &str, times: &[f64], values: &[f64]) -> Curve {
+    let points = times.iter().copied().zip(values.iter().copied());
+    Curve { name: name.to_owned(), points: points.filter(|(_, y)| y.is_finite()).collect() }
 }
 
 fn chart(run: &Recording, what: What) -> Chart {
@@ -88,6 +113,19 @@ fn chart(run: &Recording, what: What) -> Chart {
                 ("seconds_step", "whole step"),
             ];
             semilog("Time of a step", time, "time (s)", &curves(run, &parts))
+        }
+        What::Coordination => {
+            let parts = [("coordination", "all"), ("coordination_without_rattlers", "without rattlers")];
+            linear("Coordination", time, "contacts a body", &measures(run, &parts))
+        }
+        What::SolidFraction => {
+            linear("Solid fraction", time, "part filled", &measures(run, &[("solid_fraction", "smallest box around the bodies")]))
+        }
+        What::Anisotropy => {
+            linear("Anisotropy", time, "of the fabric tensor", &measures(run, &[("fabric_anisotropy", "contacts that carry")]))
+        }
+        What::Pressure => {
+            linear("Pressure", time, "mean stress (Pa, in the plane N/m)", &measures(run, &[("pressure", "pressure")]))
         }
     }
 }

@@ -2,7 +2,7 @@
 
 mod curves;
 
-use crate::chart::profile as draw;
+use crate::chart::{Form, profile as draw};
 use crate::failure::{Failure, say, writable, write_whole};
 use crate::solve::How;
 use crate::table::aligned;
@@ -30,6 +30,9 @@ pub(crate) struct Args {
     /// The folder for results.csv and the profiles
     #[arg(long)]
     out: PathBuf,
+    /// What the figures are written as
+    #[arg(long, value_enum, default_value = "svg")]
+    figures: Form,
     /// No progress bar
     #[arg(long)]
     quiet: bool,
@@ -54,7 +57,7 @@ type Methods = (GlobalMethod, LocalMethod);
 /// Solves all and writes tables and figures.
 pub(crate) fn profile(args: &Args) -> Result<(), Failure> {
     let files = problem_files(&args.folder)?;
-    prepare(&args.out)?;
+    prepare(&args.out, args.figures)?;
     let methods: Vec<Methods> = args.global.iter().flat_map(|&g| args.local.iter().map(move |&l| (g, l))).collect();
     let stop = progress::stop_on_ctrl_c()?;
     let bar = progress::bar_of("solves", (files.len() * methods.len()) as u64, args.quiet);
@@ -110,13 +113,21 @@ fn problem_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// The names of the files that are written.
-const OUTPUTS: [&str; 5] = ["results.csv", "profile-time.csv", "profile-sweeps.csv", "profile-time.svg", "profile-sweeps.svg"];
+fn outputs(figures: Form) -> impl Iterator<Item = String> {
+    let profiles =
+        ["time", "sweeps"].into_iter().flat_map(move |what| ["csv", figures.ending()].map(|ending| profile_file(what, ending)));
+    std::iter::once("results.csv".to_owned()).chain(profiles)
+}
+
+fn profile_file(what: &str, ending: &str) -> String {
+    format!("profile-{what}.{ending}")
+}
 
 /// Makes the folder and finds out whether all can be written, before the long work.
-fn prepare(out: &Path) -> Result<(), Failure> {
+fn prepare(out: &Path, figures: Form) -> Result<(), Failure> {
     std::fs::create_dir_all(out)
         .map_err(|error| Failure::file(format!("cannot write into {}: {error}; choose another --out", out.display())))?;
-    OUTPUTS.iter().try_for_each(|name| writable(&out.join(name)))
+    outputs(figures).try_for_each(|name| writable(&out.join(name)))
 }
 
 /// Solves one problem by all methods.
@@ -180,10 +191,10 @@ fn measures(rows: &[Row], methods: &[Methods]) -> [Measure; 2] {
 }
 
 fn write_profile(args: &Args, measure: &Measure) -> Result<(), Failure> {
-    let file = |ending: &str| args.out.join(format!("profile-{}.{ending}", measure.what));
+    let file = |ending: &str| args.out.join(profile_file(measure.what, ending));
     write_whole(&file("csv"), measure.csv())?;
     let title = format!("part of the problems solved within τ times the least {}", measure.what);
-    write_whole(&file("svg"), draw(&title, &measure.curves()).svg())
+    write_whole(&file(args.figures.ending()), draw(&title, &measure.curves()).draw(args.figures)?)
 }
 
 /// The table of all methods.

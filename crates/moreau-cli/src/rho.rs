@@ -1,6 +1,6 @@
 //! `moreau compare --rho`: how the number of sweeps depends on the parameter ρ of the standard methods.
 
-use crate::chart::{Curve, linear};
+use crate::chart::{Curve, Form, linear};
 use crate::failure::{Failure, write_whole};
 use crate::progress;
 use moreau::compare::{Methods, compare_one};
@@ -61,7 +61,8 @@ pub(crate) fn study<S: Space<D, N>, const D: usize, const N: usize>(
         write_whole(path, &csv)?;
     }
     if let Some(path) = study.plot {
-        write_whole(path, linear("sweeps a step against ρ", "ρ relative to 1/W", "sweeps of NLGS a step", &curves).svg())?;
+        let chart = linear("sweeps a step against ρ", "ρ relative to 1/W", "sweeps of NLGS a step", &curves);
+        write_whole(path, chart.draw(Form::of(path)?)?)?;
     }
     Ok((rows, interrupted))
 }

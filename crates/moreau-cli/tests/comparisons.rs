@@ -69,6 +69,18 @@ fn the_table_goes_to_csv_and_the_errors_to_svg() {
 }
 
 #[test]
+fn figures_are_what_their_names_ask_for() {
+    let place = Place::with("ten.toml", TEN);
+    for (name, starts) in [("errors.png", b"\x89PNG".as_slice()), ("errors.pdf", b"%PDF")] {
+        place.moreau(&["compare", "ten.toml", "--local", "pdas", "--plot", name]).fine();
+        assert!(std::fs::read(place.path(name)).unwrap().starts_with(starts), "{name}");
+    }
+    place.moreau(&["compare", "ten.toml", "--local", "pdas", "--rho", "0.5,1", "--plot", "rho.pdf"]).fine();
+    assert!(std::fs::read(place.path("rho.pdf")).unwrap().starts_with(b"%PDF"));
+    place.refuses(&["compare", "ten.toml", "--plot", "errors.jpg"], 2, &["errors.jpg", ".svg, .png or .pdf"]);
+}
+
+#[test]
 fn methods_that_disagree_are_an_error() {
     let place = Place::with("ten.toml", TEN);
     // So loose a tolerance is met by one sweep, which is no answer yet, and each method stops elsewhere.

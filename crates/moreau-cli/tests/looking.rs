@@ -85,11 +85,39 @@ fn pictures_and_plots_are_files_of_their_kinds() {
 }
 
 #[test]
+fn measures_are_in_the_page_and_in_plots() {
+    let place = Place::with("ten.toml", TEN);
+    place.moreau(&["run", "ten.toml", "--set", "output.kinds=[\"steps\",\"trajectory\",\"measures\"]"]).fine();
+    place.moreau(&["report", "out/ten"]).fine();
+    let page = place.read("out/ten/report.html");
+    let start = page.find("id=\"meta\">").unwrap() + "id=\"meta\">".len();
+    let meta: serde_json::Value = serde_json::from_str(page[start..].split("</script>").next().unwrap()).unwrap();
+    let written = place.read("out/ten/measures.csv");
+    let mut lines = written.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<f64>> = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert!(rows.len() > 1);
+    for (k, name) in names.iter().enumerate() {
+        let shown: Vec<f64> = serde_json::from_value(meta["measures"][name].clone()).unwrap();
+        // Reading JSON rounds.
+        let alike = |(shown, row): (&f64, &Vec<f64>)| (shown - row[k]).abs() <= 1e-15 * row[k].abs();
+        assert!(shown.len() == rows.len() && shown.iter().zip(&rows).all(alike), "{name}: {shown:?}");
+    }
+    place.moreau(&["plot", "out/ten", "--what", "coordination,solid-fraction,anisotropy,pressure", "--out", "m.svg"]).fine();
+    assert!(place.read("m.svg").contains("without rattlers"));
+}
+
+#[test]
 fn what_cannot_be_shown_is_refused() {
     let place = Place::with("ten.toml", TEN);
     place.moreau(&["run", "ten.toml"]).fine();
     place.refuses(&["report", "nowhere"], 1, &["nowhere has no trajectory.h5", "name the folder that moreau run wrote"]);
     place.refuses(&["plot", "out/ten", "--out", "plot.jpg"], 2, &["plot.jpg", ".svg, .png or .pdf"]);
+    place.refuses(
+        &["plot", "out/ten", "--what", "pressure"],
+        2,
+        &["out/ten", "no measures.csv", "\"measures\" among output.kinds"],
+    );
     place.refuses(&["render", "out/ten", "--out", "picture.svg"], 2, &["picture.svg"]);
     place.refuses(&["render", "out/ten", "--size", "big"], 2, &["1280x960 is one"]);
     place.refuses(&["render", "out/ten", "--look", "1,2"], 2, &["--look has 2 numbers; three are right"]);

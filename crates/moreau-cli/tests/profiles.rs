@@ -37,6 +37,16 @@ fn a_profile_has_a_row_a_problem_and_method() {
 }
 
 #[test]
+fn the_figures_of_a_profile_have_the_form_that_is_asked_for() {
+    let place = place();
+    place.moreau(&[&WORDS[..], &["--figures", "pdf"]].concat()).fine();
+    for what in ["time", "sweeps"] {
+        assert!(std::fs::read(place.path(&format!("prof/profile-{what}.pdf"))).unwrap().starts_with(b"%PDF"), "{what}");
+    }
+    assert!(!place.path("prof/profile-time.svg").exists());
+}
+
+#[test]
 fn profiles_rise_to_the_part_that_is_solved() {
     let place = place();
     place.moreau(&WORDS).fine();

@@ -1,8 +1,24 @@
 // The charts of a run. They share their time axis and a cursor at the time that the picture shows.
 
-/** What is drawn: a chart's lines name columns of the steps. */
-function chartList(steps, tolerance) {
-    const line = (name, column, colour) => ({ name, colour: NAMED_INK[colour], values: steps[column] ?? [] });
+/** What is drawn: a chart's lines name columns of the steps or, where the run has them, of its granular measures. */
+function chartList({ steps, measures = {}, solver }) {
+    const of = (table) => (name, column, colour) => ({ name, colour: NAMED_INK[colour], values: table[column] ?? [] });
+    const ofSteps = stepCharts(of(steps), solver.tolerance), ofMeasures = measures.time?.length ? measureCharts(of(measures)) : [];
+    return [...ofSteps.map((chart) => ({ ...chart, times: steps.time })), ...ofMeasures.map((chart) => ({ ...chart, times: measures.time }))];
+}
+
+function measureCharts(line) {
+    return [
+        { title: "Coordination", unit: "contacts per body", series: [line("all", "coordination", 0), line("without rattlers", "coordination_without_rattlers", 1)] },
+        { title: "Solid fraction", series: [line("", "solid_fraction", 0)] },
+        { title: "Anisotropy of contacts", series: [line("", "fabric_anisotropy", 3)] },
+        { title: "Pressure", unit: "Pa or N/m", series: [line("", "pressure", 5)] },
+        { title: "Mean normal force", unit: "N", series: [line("", "mean_normal_force", 1)] },
+        { title: "Share of sliding contacts", series: [line("", "sliding_share", 2)] },
+    ];
+}
+
+function stepCharts(line, tolerance) {
     return [
         { title: "Sweeps", unit: "per step", series: [line("", "sweeps", 0)] },
         {
@@ -40,14 +56,14 @@ class Charts {
 
     /** Takes the run's steps again, which have grown. */
     renew() {
-        const { steps, frames, solver } = this.run.meta;
-        this.steps = steps;
+        const { steps, frames } = this.run.meta, list = chartList(this.run.meta);
         this.start = Math.min(steps.time[0] ?? 0, frames.time[0] ?? 0);
         this.end = Math.max(steps.time.at(-1) ?? 1, frames.time.at(-1) ?? 1);
-        if (this.plots) {
-            chartList(steps, solver.tolerance).forEach(({ series }, i) => (this.plots[i].series = series));
+        // Measures may come later than steps: then there are more charts than before.
+        if (this.plots?.length === list.length) {
+            list.forEach(({ series, times }, i) => Object.assign(this.plots[i], { series, times }));
         } else {
-            this.plots = chartList(steps, solver.tolerance).map((given) => new Plot(given));
+            this.plots = list.map((given) => new Plot(given));
             this.plots.forEach((plot) => this.listen(plot.canvas));
             this.place.replaceChildren(...this.plots.map((plot) => plot.place), this.cursor);
         }
@@ -57,7 +73,7 @@ class Charts {
     draw() {
         const style = getComputedStyle(document.documentElement), get = (name) => style.getPropertyValue(name).trim();
         const ink = { text: get("--quiet"), grid: get("--rule"), font: "10.5px system-ui, sans-serif" };
-        for (const plot of this.plots) plot.draw(this.steps.time, this.start, this.end, ink);
+        for (const plot of this.plots) plot.draw(this.start, this.end, ink);
         if (this.time !== undefined) this.show(this.time);
     }
 
@@ -78,7 +94,7 @@ class Charts {
         });
     }
 
-    /** Puts the cursor at a time; values are read at the step that ends there. */
+    /** Puts the cursor at a time; values are read at the last step until there. */
     show(time) {
         this.time = time;
         const width = this.plots[0].canvas.clientWidth - PLOT.left - PLOT.right;
@@ -93,7 +109,7 @@ class Charts {
     /** Text is slow to lay out, so it follows ten times a second at most. */
     readAt(time, now) {
         this.read = now;
-        const step = lastBelow(this.steps.time, time + 1e-9 * (this.end - this.start));
-        for (const plot of this.plots) plot.read(step);
+        const end = time + 1e-9 * (this.end - this.start);
+        for (const plot of this.plots) plot.read(lastBelow(plot.times, end));
     }
 }

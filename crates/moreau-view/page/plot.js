@@ -19,9 +19,9 @@ function decades(low, high, count) {
 }
 
 class Plot {
-    /** `series` is a list of { name, colour, values }; with `log`, what is not positive is not drawn; `bound` is a dashed line. */
-    constructor({ title, unit = "", log = false, bound = NaN, series }) {
-        Object.assign(this, { title, unit, log, bound, series });
+    /** `series` is a list of { name, colour, values } at `times`; with `log`, what is not positive is not drawn; `bound` is a dashed line. */
+    constructor({ title, unit = "", log = false, bound = NaN, times, series }) {
+        Object.assign(this, { title, unit, log, bound, times, series });
         this.canvas = element("canvas", { role: "img", "aria-label": `${title} over time` });
         this.readouts = series.map(() => element("span", { class: "value" }));
         const keys = series.map((s, i) => element("span", { class: "key" },
@@ -46,8 +46,8 @@ class Plot {
         return [low, high + 0.04 * (high - low)];
     }
 
-    /** Draws all again for `times` between `start` and `end`. */
-    draw(times, start, end, ink) {
+    /** Draws all again between the times `start` and `end`. */
+    draw(start, end, ink) {
         const { canvas } = this, width = canvas.clientWidth, height = PLOT.height;
         if (!width) return;
         const ratio = window.devicePixelRatio;
@@ -62,7 +62,7 @@ class Plot {
         pen.beginPath();
         pen.rect(PLOT.left, 0, w, height);
         pen.clip();
-        for (const { values, colour } of this.series) this.line(pen, times, values, toX, toY, colour);
+        for (const { values, colour } of this.series) this.line(pen, this.times, values, toX, toY, colour);
         if (this.bound > 0) {
             pen.setLineDash([4, 3]);
             this.line(pen, [start, end], [this.bound, this.bound], toX, toY, ink.text);

@@ -2,11 +2,13 @@
 
 mod block;
 mod bodies;
+mod measures;
 mod record;
 
 pub use block::block;
 pub(crate) use bodies::Drawn;
 
+use measures::Measures;
 use moreau::scene::{AnyWorld, Scene};
 use moreau::trajectory::{Trajectory, TrajectoryError};
 use serde_json::{Value, json};
@@ -50,6 +52,7 @@ pub struct Recording {
     folder: PathBuf,
     /// The records of steps, by the columns of `steps.csv`.
     columns: Vec<Vec<f64>>,
+    measures: Measures,
 }
 
 impl Recording {
@@ -74,7 +77,8 @@ impl Recording {
             return Err(RecordingError::Bodies { folder, scene: bodies, trajectory });
         }
         let columns = trajectory.columns()?;
-        Ok(Self { scene, world, trajectory, folder: folder.to_owned(), columns })
+        let measures = Measures::read(&folder.join("measures.csv"));
+        Ok(Self { scene, world, trajectory, folder: folder.to_owned(), columns, measures })
     }
 
     /// Sees what has come since.
@@ -84,6 +88,7 @@ impl Recording {
     pub fn renew(&mut self) -> Result<(), RecordingError> {
         self.renew_frames()?;
         self.columns = self.trajectory.columns()?;
+        self.measures = Measures::read(&self.folder.join("measures.csv"));
         Ok(())
     }
 
@@ -106,6 +111,11 @@ impl Recording {
     pub fn column(&self, name: &str) -> &[f64] {
         let place = moreau::observe::COLUMNS.iter().position(|&column| column == name);
         place.map_or(&[], |place| self.columns[place].as_slice())
+    }
+
+    /// A column of `measures.csv`, by its name; empty where there is none.
+    pub fn measure(&self, name: &str) -> &[f64] {
+        self.measures.column(name)
     }
 
     /// What a page knows before it sees a frame, for these frames in these blocks. `live` says whether the run goes on.
@@ -144,6 +154,7 @@ impl Recording {
             "blocks": blocks.iter().map(|b| json!({ "first": b.start, "frames": b.len() })).collect::<Vec<_>>(),
             "thinned": thinned,
             "steps": record::steps(self),
+            "measures": self.measures.json(),
         })
     }
 }
