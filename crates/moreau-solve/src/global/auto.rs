@@ -12,9 +12,10 @@
 //! active set method has no matrix to invert; W + ϱ D, through the bodies, is small:
 //!
 //! ```text
-//! repeat until the criterion is met, each time with twice as many:
-//!   accelerated sweeps, at first 20
-//!   steps of ADMM, at first 60
+//! three times, until the criterion is met:
+//!   accelerated sweeps: 20, 40, 80
+//!   60 steps of ADMM, which end a structure that stands but hardly one that slides
+//! accelerated sweeps
 //! ```
 //!
 //! Sweeps are by far the cheapest and end most problems; a step costs some fifty of them and ends those on which they crawl. Where both
@@ -27,8 +28,9 @@ use crate::{GlobalMethod, LocalMethod, Operator, Order, Status};
 /// Sweeps before the first step, however large the problem is.
 const MOST_FIRST_SWEEPS: u64 = 400;
 
-/// Sweeps and steps at first where impulses are far from unique.
-const FIRST_INDETERMINATE: [u64; 2] = [20, 60];
+/// Sweeps before each turn of ADMM where impulses are far from unique, and its steps.
+const INDETERMINATE: [u64; 3] = [20, 40, 80];
+const STEPS: u64 = 60;
 
 /// Stages until the judge says stop; the best impulses of all are the answer.
 pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
@@ -37,21 +39,19 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
 
 fn indeterminate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
     let (mut best, mut answer) = (f64::INFINITY, Vec::new());
-    let mut budgets = FIRST_INDETERMINATE;
-    loop {
-        for (method, budget) in [GlobalMethod::Accelerated, GlobalMethod::Admm].into_iter().zip(&mut budgets) {
-            let end = stage(work, method, |work| limited(work, method, *budget));
-            if work.judge.error < best || answer.is_empty() {
-                best = work.judge.error;
-                keep(&mut answer, work.r);
-            }
-            // Where factors are too large or fail, sweeps go on.
-            if let Some(status) = end.filter(|status| !matches!(status, Status::Unsuited | Status::Stalled)) {
-                return ended(work, status, best, &answer);
-            }
-            *budget *= 2;
+    let turns = INDETERMINATE.iter().flat_map(|&sweeps| [(GlobalMethod::Accelerated, sweeps), (GlobalMethod::Admm, STEPS)]);
+    for (method, budget) in turns.chain([(GlobalMethod::Accelerated, u64::MAX)]) {
+        let end = stage(work, method, |work| limited(work, method, budget));
+        if work.judge.error < best || answer.is_empty() {
+            best = work.judge.error;
+            keep(&mut answer, work.r);
+        }
+        // Where factors are too large or fail, sweeps go on.
+        if let Some(status) = end.filter(|status| !matches!(status, Status::Unsuited | Status::Stalled)) {
+            return ended(work, status, best, &answer);
         }
     }
+    ended(work, Status::Stalled, best, &answer)
 }
 
 fn determinate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
@@ -113,7 +113,7 @@ fn sweeps<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, budget: u64
 /// At most `budget` sweeps or steps of one method; how they ended the solve, if they did.
 fn limited<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, method: GlobalMethod, budget: u64) -> Option<Status> {
     let limit = work.judge.limit;
-    work.judge.limit = limit.min(work.judge.sweeps + budget);
+    work.judge.limit = limit.min(work.judge.sweeps.saturating_add(budget));
     let status = work.run(method);
     work.judge.limit = limit;
     (status != Status::MaxSweeps || work.judge.sweeps >= limit).then_some(status)
