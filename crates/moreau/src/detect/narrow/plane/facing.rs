@@ -43,6 +43,13 @@ pub(super) fn collide<'a, A, B>(
         ends = [Some(facing.vertices(apart)), None];
     }
     ends.sort_unstable_by_key(|end| end.map_or(u64::MAX, |end| end.feature));
+    // Corners that touch share no stretch: its ends are one point.
+    if let [Some(one), Some(other)] = ends {
+        let between = sub(other.point, one.point);
+        if dot(between, between) <= (4.0 * level) * (4.0 * level) {
+            ends[1] = None;
+        }
+    }
     for End { feature, point, normal, gap: apart } in ends.into_iter().flatten().filter(|end| end.gap <= reach + grown) {
         let gap = apart - grown;
         // Half-way between the surfaces, from the other's.
