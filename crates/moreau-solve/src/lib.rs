@@ -23,6 +23,9 @@
 //! assert!((r[0][0] - 6.0).abs() < 1e-12 && (r[0][1] + 0.6).abs() < 1e-12);
 //! ```
 
+// Bits must not depend on the system's mathematics library; see docs/determinism.md.
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod block;
 mod cone;
 #[cfg(feature = "files")]

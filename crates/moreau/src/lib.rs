@@ -1,5 +1,8 @@
 //! moreau computes how many rigid bodies move when they touch: nonsmooth contact dynamics, Moreau-Jean time stepping.
 
+// Bits must not depend on the system's mathematics library; see docs/determinism.md.
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod bodies;
 pub mod compare;
 pub mod contacts;

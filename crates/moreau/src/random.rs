@@ -3,7 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// A generator of fixed kind. Only sums, products and square roots follow it, which every machine rounds alike.
+/// A generator of fixed kind. Only sums, products, square roots and logarithms of our own follow it, which every machine rounds alike.
 #[derive(Clone, Debug)]
 pub(crate) struct Random(Pcg64Mcg);
 
@@ -52,10 +52,15 @@ impl Random {
         }
     }
 
-    /// A number of the standard normal distribution.
+    /// A number of the standard normal distribution (Marsaglia & Bray 1964). Of libraries' ways the tails ask the system for a logarithm.
     pub(crate) fn normal(&mut self) -> f64 {
-        use rand_distr::{Distribution, StandardNormal};
-        StandardNormal.sample(&mut self.0)
+        loop {
+            let point: [f64; 2] = self.in_ball();
+            let s = square(&point);
+            if s > 0.0 {
+                return point[0] * (-2.0 * libm::log(s) / s).sqrt();
+            }
+        }
     }
 }
 

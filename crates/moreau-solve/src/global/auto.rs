@@ -99,7 +99,7 @@ fn sweeps<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, budget: u64
             if let Some(status) = limited(work, GlobalMethod::Accelerated, budget) {
                 return Some(status);
             }
-            let (fallen, to_fall) = ((before / work.judge.error).ln(), (work.judge.error / work.settings.tolerance).ln());
+            let (fallen, to_fall) = (libm::log(before / work.judge.error), libm::log(work.judge.error / work.settings.tolerance));
             // Of the first sweeps it is not known whence they fell.
             let soon = before.is_finite() && 2.0 * fallen >= to_fall;
             if !soon {

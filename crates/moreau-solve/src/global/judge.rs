@@ -116,8 +116,8 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     /// For how many sweeps a measure cannot but say no: a quarter of those that the fall since the last one, `before`,
     /// lets expect, but no more than an eighth of those done: some methods fall ever faster.
     fn hopeless(&self, before: f64) -> u64 {
-        let fall = (before / self.error).ln() / (self.sweeps - self.measured_at).max(1) as f64;
-        let expected = (self.error / self.settings.tolerance).ln() / fall;
+        let fall = libm::log(before / self.error) / (self.sweeps - self.measured_at).max(1) as f64;
+        let expected = libm::log(self.error / self.settings.tolerance) / fall;
         // A fall from what was never measured is infinite, and expects nothing.
         if fall > 0.0 && expected > 0.0 { (0.25 * expected).min(0.125 * self.sweeps as f64) as u64 } else { 0 }
     }

@@ -68,7 +68,7 @@ impl Function {
         match self {
             Function::Constant(value) => *value,
             Function::Ramp(Ramp { from, to, begin, end }) => on_line([*begin, *from], [*end, *to], t),
-            Function::Sine(sine) => sine.offset + sine.amplitude * sine.angle(t).sin(),
+            Function::Sine(sine) => sine.offset + sine.amplitude * libm::sin(sine.angle(t)),
             Function::Table(Table { times, values }) => {
                 let after = times.partition_point(|&time| time <= t).min(times.len().saturating_sub(1));
                 let point = |i: usize| [times.get(i).copied().unwrap_or(0.0), values.get(i).copied().unwrap_or(0.0)];
@@ -84,7 +84,7 @@ impl Function {
             Function::Ramp(Ramp { begin, end, .. }) => self.trapezoids(&[*begin, *end], a, b),
             // cos x − cos y = 2 sin((x + y)/2) sin((y − x)/2), which keeps its digits over a short step.
             Function::Sine(sine) => {
-                let swing = sine.angle(0.5 * (a + b)).sin() * (PI * sine.frequency * (b - a)).sin();
+                let swing = libm::sin(sine.angle(0.5 * (a + b))) * libm::sin(PI * sine.frequency * (b - a));
                 sine.offset * (b - a) + sine.amplitude * swing / (PI * sine.frequency)
             }
             Function::Table(Table { times, .. }) => self.trapezoids(times, a, b),
@@ -97,7 +97,7 @@ impl Function {
         match self {
             Function::Constant(_) => 0.0,
             Function::Ramp(Ramp { from, to, begin, end }) => slope_of([*begin, *from], [*end, *to], t_aside),
-            Function::Sine(sine) => sine.amplitude * TAU * sine.frequency * sine.angle(t).cos(),
+            Function::Sine(sine) => sine.amplitude * TAU * sine.frequency * libm::cos(sine.angle(t)),
             Function::Table(Table { times, values }) => {
                 let after = times.partition_point(|&time| time <= t_aside);
                 match (after.checked_sub(1), times.get(after)) {

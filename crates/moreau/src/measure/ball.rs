@@ -35,7 +35,7 @@ fn from_centre<const D: usize>(r: f64, corner: &[f64; D]) -> f64 {
 /// Of a quarter disk, all that is nearer than `a` to one of its sides.
 fn strip(r: f64, a: f64) -> f64 {
     let w = (r * r - a * a).max(0.0).sqrt();
-    0.5 * (a * w + r * r * a.atan2(w))
+    0.5 * (a * w + r * r * libm::atan2(a, w))
 }
 
 /// Of an eighth of a ball, all that is nearer than `a` to one of its sides.
@@ -52,5 +52,6 @@ fn wedge(r: f64, a: f64, b: f64) -> f64 {
     // All angles by the same root: near the surface of the ball its rounding then cancels.
     let w = square.sqrt();
     let part = |x: f64| x * (r * r - x * x / 3.0);
-    a * b * w / 3.0 + 0.5 * (part(a) * b.atan2(w) + part(b) * a.atan2(w)) - r * r * r / 3.0 * (a * b).atan2(r * w)
+    a * b * w / 3.0 + 0.5 * (part(a) * libm::atan2(b, w) + part(b) * libm::atan2(a, w))
+        - r * r * r / 3.0 * libm::atan2(a * b, r * w)
 }

@@ -120,10 +120,9 @@ impl SceneSpace<2, 3> for Plane {
         (HalfPlane.into(), Pose { position, rotation: [y, -x] })
     }
 
-    /// Sines and cosines come from the system's mathematics library and may differ in their last bit between systems.
     fn rotation(orientation: Option<&Orientation>) -> [f64; 2] {
         match orientation {
-            Some(Orientation::Angle(angle)) => [angle.cos(), angle.sin()],
+            Some(Orientation::Angle(angle)) => [libm::cos(*angle), libm::sin(*angle)],
             Some(Orientation::Turn(turn)) => {
                 let (sine, cosine) = sin_cos(turn, 1.0);
                 [cosine, sine]
@@ -184,7 +183,6 @@ impl SceneSpace<3, 6> for Solid {
         (HalfSpace.into(), Pose { position, rotation: DQuat::from_rotation_arc(DVec3::Z, normal.into()) })
     }
 
-    /// Sines and cosines come from the system's mathematics library and may differ in their last bit between systems.
     fn rotation(orientation: Option<&Orientation>) -> DQuat {
         match orientation {
             Some(Orientation::Quaternion(q)) => {
@@ -210,13 +208,13 @@ impl SceneSpace<3, 6> for Solid {
 
 /// Sine and cosine of a part of a turn's angle; whole quarter turns in degrees are exact.
 fn sin_cos(turn: &Turn, part: f64) -> (f64, f64) {
-    let Some(degrees) = turn.degrees else { return (part * turn.angle.unwrap_or(0.0)).sin_cos() };
+    let Some(degrees) = turn.degrees else { return libm::sincos(part * turn.angle.unwrap_or(0.0)) };
     let degrees = (part * degrees) % 360.0;
     match degrees {
         0.0 => (0.0, 1.0),
         90.0 | -270.0 => (1.0, 0.0),
         180.0 | -180.0 => (0.0, -1.0),
         270.0 | -90.0 => (-1.0, 0.0),
-        _ => degrees.to_radians().sin_cos(),
+        _ => libm::sincos(degrees.to_radians()),
     }
 }

@@ -27,12 +27,12 @@ impl Radii {
         let middles = (0..nodes).map(|k| (f64::from(k) + 0.5) / f64::from(nodes));
         if let Radii::LogNormal(LogNormal { median, sigma, min, max }) = self {
             // Over the logarithm of r, whose density is normal.
-            let (low, high) = ((min / median).ln(), (max / median).ln());
+            let (low, high) = (libm::log(min / median), libm::log(max / median));
             let (mut sum, mut weights) = (0.0, f64::MIN_POSITIVE);
             for u in middles {
                 let log = low + u * (high - low);
-                let weight = if *sigma > 0.0 { (-0.5 * (log / sigma).powi(2)).exp() } else { 1.0 };
-                sum += weight * power(median * log.exp());
+                let weight = if *sigma > 0.0 { libm::exp(-0.5 * (log / sigma).powi(2)) } else { 1.0 };
+                sum += weight * power(median * libm::exp(log));
                 weights += weight;
             }
             return sum / weights;
@@ -80,10 +80,9 @@ impl Radii {
 }
 
 impl LogNormal {
-    /// A radius. `exp` and the tails of the normal distribution come from the system's mathematics library, whose last bit may
-    /// differ between systems: the one distribution of which the same seed may not give the same bits everywhere.
+    /// A radius.
     fn draw(&self, random: &mut Random) -> Option<f64> {
-        let mut draws = std::iter::repeat_with(|| self.median * (self.sigma * random.normal()).exp()).take(REDRAWS);
+        let mut draws = std::iter::repeat_with(|| self.median * libm::exp(self.sigma * random.normal())).take(REDRAWS);
         draws.find(|radius| (self.min..=self.max).contains(radius))
     }
 }

@@ -36,7 +36,7 @@ impl Space<2, 3> for Plane {
     }
 
     fn turned([c, s]: [f64; 2], _: [f64; 3], angle: f64) -> [f64; 2] {
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = libm::sincos(angle);
         [c * cosine - s * sine, s * cosine + c * sine]
     }
 

@@ -41,7 +41,9 @@ impl Space<3, 6> for Solid {
     }
 
     fn turned(rotation: DQuat, axis: [f64; 3], angle: f64) -> DQuat {
-        (DQuat::from_axis_angle(axis.into(), angle) * rotation).normalize()
+        let (sine, cosine) = libm::sincos(0.5 * angle);
+        let [x, y, z] = axis.map(|x| sine * x);
+        (DQuat::from_xyzw(x, y, z, cosine) * rotation).normalize()
     }
 
     #[inline]

@@ -19,8 +19,8 @@ pub(super) fn is_noise(block: &[u8]) -> bool {
         counts[usize::from(byte)] += 1;
     }
     // −Σ p log₂ p with p = count / SAMPLE.
-    let logs: f64 = counts.iter().filter(|&&count| count > 0).map(|&count| f64::from(count) * f64::from(count).log2()).sum();
-    (SAMPLE as f64).log2() - logs / SAMPLE as f64 > NOISE
+    let logs: f64 = counts.iter().filter(|&&count| count > 0).map(|&count| f64::from(count) * libm::log2(f64::from(count))).sum();
+    libm::log2(SAMPLE as f64) - logs / SAMPLE as f64 > NOISE
 }
 
 #[cfg(test)]

@@ -68,7 +68,7 @@ impl Arcade {
             [[inner * cosine, inner * sine], outer].map(|[x, up]| [sign * x, up])
         };
         let corners = [[sides[0], self.level], [-sides[1], self.level]];
-        let apart = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) > ROUNDING * self.level;
+        let apart = |p: [f64; 2], q: [f64; 2]| libm::hypot(p[0] - q[0], p[1] - q[1]) > ROUNDING * self.level;
         let profile = |k: u64| {
             let ([inner, outer], [next_inner, next_outer]) = (joint(k), joint(k + 1));
             let mut profile = vec![inner, outer];

@@ -99,7 +99,7 @@ impl Arch {
     fn springer(&self) -> Vec<[f64; 2]> {
         let [inner, outer] = self.joint(0);
         // Out of the stone, perpendicular to its foot.
-        let length = (outer[0] - inner[0]).hypot(outer[1] - inner[1]);
+        let length = libm::hypot(outer[0] - inner[0], outer[1] - inner[1]);
         let [x, up] = [0, 1].map(|k| self.thickness * (outer[k] - inner[k]) / length);
         let below = |p: [f64; 2]| [p[0] + up, p[1] - x];
         vec![inner, below(inner), below(outer), outer]

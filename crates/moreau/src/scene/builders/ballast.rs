@@ -91,7 +91,7 @@ impl Ballast {
     /// The corners of a stone of the plane, in order around it, turned at random.
     fn polygon(&self, random: &mut Random) -> Vec<[f64; 2]> {
         let mut corners = self.along_axes::<2>(random);
-        corners.sort_by(|p, q| p[1].atan2(p[0]).total_cmp(&q[1].atan2(q[0])));
+        corners.sort_by(|p, q| libm::atan2(p[1], p[0]).total_cmp(&libm::atan2(q[1], q[0])));
         let [cosine, sine] = random.direction();
         corners.into_iter().map(|[x, y]| [cosine * x - sine * y, sine * x + cosine * y]).collect()
     }

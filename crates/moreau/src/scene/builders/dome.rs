@@ -38,7 +38,7 @@ impl Dome {
             return [0.0, 1.0];
         }
         let part = if self.oculus > 0.0 {
-            (self.oculus / self.spheres()[0]).acos().to_degrees() / self.courses as f64
+            libm::acos(self.oculus / self.spheres()[0]).to_degrees() / self.courses as f64
         } else {
             // The keystone is as wide as a ring is high.
             90.0 / (self.courses as f64 + 0.5)

@@ -27,13 +27,13 @@ pub struct Hopper {
 impl Hopper {
     fn height(&self) -> f64 {
         let run = 0.5 * (self.top - self.opening);
-        self.height.unwrap_or_else(|| self.degrees.map_or(0.0, |degrees| run * degrees.to_radians().tan()))
+        self.height.unwrap_or_else(|| self.degrees.map_or(0.0, |degrees| run * libm::tan(degrees.to_radians())))
     }
 
     /// Inner and outer half widths with their heights. Plates are as thick as given across them, so wider along the horizontal.
     fn rings(&self) -> [[f64; 2]; 4] {
         let (run, height) = (0.5 * (self.top - self.opening), self.height());
-        let across = self.thickness * run.hypot(height) / height;
+        let across = self.thickness * libm::hypot(run, height) / height;
         [
             [0.5 * self.opening, 0.0],
             [0.5 * self.opening + across, 0.0],

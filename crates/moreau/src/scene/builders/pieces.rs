@@ -52,6 +52,6 @@ pub(super) fn rectangle([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> Vec
 
 /// The point at this distance from the origin in the direction of an angle from x towards up.
 pub(super) fn polar(radius: f64, degrees: f64) -> [f64; 2] {
-    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let (sine, cosine) = libm::sincos(degrees.to_radians());
     [radius * cosine, radius * sine]
 }

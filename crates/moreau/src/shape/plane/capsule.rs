@@ -63,7 +63,7 @@ impl Figure<Plane, 2, 3> for Capsule {
         Polygons::of_loop((0..2 * (half + 1)).map(|i| {
             let right = i <= half;
             let angle = PI * ((i - usize::from(!right)) as f64 / half as f64 - 0.5);
-            [if right { 0.5 } else { -0.5 } * self.length + self.radius * angle.cos(), self.radius * angle.sin()]
+            [if right { 0.5 } else { -0.5 } * self.length + self.radius * libm::cos(angle), self.radius * libm::sin(angle)]
         }))
     }
 

@@ -32,7 +32,7 @@ impl Figure<Plane, 2, 3> for Disk {
 
     fn polygons(&self) -> Polygons<2> {
         let angle = |side: usize| 2.0 * PI * side as f64 / SIDES as f64;
-        Polygons::of_loop((0..SIDES).map(|side| [self.radius * angle(side).cos(), self.radius * angle(side).sin()]))
+        Polygons::of_loop((0..SIDES).map(|side| [self.radius * libm::cos(angle(side)), self.radius * libm::sin(angle(side))]))
     }
 
     fn mass(&self, density: f64) -> [f64; 3] {

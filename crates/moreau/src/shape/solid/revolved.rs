@@ -31,8 +31,8 @@ pub(crate) fn arc(radius: f64, centre: f64, twelfths: std::ops::RangeInclusive<u
     twelfths.map(move |i| {
         let angle = PI * i as f64 / 12.0;
         // The poles lie on the axis exactly.
-        let out = if i == 0 || i == 12 { 0.0 } else { radius * angle.sin() };
-        [out, centre - radius * angle.cos()]
+        let out = if i == 0 || i == 12 { 0.0 } else { radius * libm::sin(angle) };
+        [out, centre - radius * libm::cos(angle)]
     })
 }
 
@@ -46,7 +46,7 @@ impl Ring {
     fn of([radius, height]: [f64; 2], all: &mut Polygons<3>) -> Self {
         let (first, count) = (all.vertices.len(), if radius == 0.0 { 1 } else { SIDES });
         all.vertices.extend((0..count).map(|side| {
-            let (sine, cosine) = (2.0 * PI * side as f64 / SIDES as f64).sin_cos();
+            let (sine, cosine) = libm::sincos(2.0 * PI * side as f64 / SIDES as f64);
             [radius * cosine, radius * sine, height]
         }));
         Self { first, count }

@@ -215,7 +215,7 @@ pub(crate) fn is_one(a: [f64; 3], b: [f64; 3]) -> bool {
 fn angle(corners: [[f64; 3]; 3], k: usize) -> f64 {
     let (u, v) = (sub(corners[(k + 1) % 3], corners[k]), sub(corners[(k + 2) % 3], corners[k]));
     let across = cross(u, v);
-    dot(across, across).sqrt().atan2(dot(u, v))
+    libm::atan2(dot(across, across).sqrt(), dot(u, v))
 }
 
 /// The other ends of the edges at each point, each once.

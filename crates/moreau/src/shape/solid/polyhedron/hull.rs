@@ -187,14 +187,14 @@ impl<'a> Wrap<'a> {
         // Largest angle from the old face through the inside; of equal ones the farthest.
         let mut best: Option<(f64, f64)> = None;
         for (x, depth) in (0..self.points.len()).map(seen) {
-            let far = x.hypot(depth);
+            let far = libm::hypot(x, depth);
             if far <= self.eps || (depth <= self.eps && x > -self.eps) {
                 continue;
             }
             let farther = |(bx, bd): (f64, f64)| {
                 let side = bx * depth - x * bd;
-                let level = self.eps * bx.hypot(bd).max(far) * 1e-3;
-                side > level || (side > -level && far > bx.hypot(bd))
+                let level = self.eps * libm::hypot(bx, bd).max(far) * 1e-3;
+                side > level || (side > -level && far > libm::hypot(bx, bd))
             };
             if best.is_none_or(farther) {
                 best = Some((x, depth));
