@@ -12,7 +12,7 @@ use crate::block::Vector;
 use crate::{Operator, Problem};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SparseColMatRef, Triplet};
 use faer::{ColMut, Side};
 
 /// The matrix with its factors.
@@ -48,14 +48,10 @@ impl ThroughBodies {
 
 impl<const D: usize> System<D> for ThroughBodies {
     fn factorise(&mut self, rho: f64) -> bool {
-        let mut matrix = self.square.clone();
-        for column in 0..matrix.ncols() {
-            let (rows, values) = (matrix.symbolic().row_idx_of_col_raw(column).to_vec(), matrix.val_of_col_mut(column));
-            for (row, x) in rows.into_iter().zip(values) {
-                *x = *x / rho + f64::from(u8::from(row == column));
-            }
-        }
-        let factors = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix.as_ref(), Side::Lower);
+        let value = |k: usize| column(&self.square, k).map(move |(i, x)| x / rho + f64::from(u8::from(i == k)));
+        let values: Vec<f64> = (0..self.square.ncols()).flat_map(value).collect();
+        let matrix = SparseColMatRef::new(self.square.symbolic(), &values);
+        let factors = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower);
         self.factors = factors.ok().map(|factors| (factors, rho));
         self.factors.is_some()
     }
@@ -65,19 +61,19 @@ impl<const D: usize> System<D> for ThroughBodies {
         // b in the units of √D, in which the rows are.
         let b = x.as_flattened_mut();
         b.iter_mut().zip(&self.weights).for_each(|(b, w)| *b = if *w > 0.0 { *b / w.sqrt() } else { 0.0 });
-        let mut y: Vec<f64> = (0..self.rows.ncols())
-            .map(|k| {
-                self.rows.as_ref().row_idx_of_col(k).zip(self.rows.as_ref().val_of_col(k)).map(|(i, a)| a * b[i]).sum::<f64>()
-                    / rho
-            })
-            .collect();
+        let along = |k: usize| column(&self.rows, k).map(|(i, a)| a * b[i]).sum::<f64>() / rho;
+        let mut y: Vec<f64> = (0..self.rows.ncols()).map(along).collect();
         factors.solve_in_place(ColMut::from_slice_mut(&mut y).as_mat_mut());
         for (k, y) in y.iter().enumerate() {
-            let column = self.rows.as_ref().row_idx_of_col(k).zip(self.rows.as_ref().val_of_col(k));
-            column.for_each(|(i, a)| b[i] -= a * y);
+            column(&self.rows, k).for_each(|(i, a)| b[i] -= a * y);
         }
         for ((b, r), w) in b.iter_mut().zip(r.as_flattened()).zip(&self.weights) {
             *b = if *w > 0.0 { *b / (rho * w.sqrt()) } else { *r };
         }
     }
+}
+
+/// Rows and values of a column.
+fn column(matrix: &SparseColMat<usize, f64>, k: usize) -> impl Iterator<Item = (usize, f64)> {
+    matrix.symbolic().row_idx_of_col_raw(k).iter().copied().zip(matrix.val_of_col(k).iter().copied())
 }
