@@ -15,7 +15,7 @@
 //! three times, until the criterion is met:
 //!   accelerated sweeps: 20, 40, 80
 //!   60 steps of ADMM, which end a structure that stands but hardly one that slides
-//! accelerated sweeps
+//! the stages above where there are few unknowns, else accelerated sweeps
 //! ```
 //!
 //! Sweeps are by far the cheapest and end most problems; a step costs some fifty of them and ends those on which they crawl. Where both
@@ -31,16 +31,20 @@ const MOST_FIRST_SWEEPS: u64 = 400;
 /// Sweeps before each turn of ADMM where impulses are far from unique, and its steps.
 const INDETERMINATE: [u64; 3] = [20, 40, 80];
 const STEPS: u64 = 60;
+/// Up to so many unknowns what ADMM does not end is left to the other stages: ratios of masses, which they bear better. Of larger problems of this kind
+/// each step of the active set method takes tenths of a second, and many.
+const SMALL: usize = 600;
 
 /// Stages until the judge says stop; the best impulses of all are the answer.
 pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
     if admm::suits(work.problem) { indeterminate(work) } else { determinate(work) }
 }
 
+/// The turns of sweeps and ADMM, and what follows where they do not end.
 fn indeterminate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
     let (mut best, mut answer) = (f64::INFINITY, Vec::new());
     let turns = INDETERMINATE.iter().flat_map(|&sweeps| [(GlobalMethod::Accelerated, sweeps), (GlobalMethod::Admm, STEPS)]);
-    for (method, budget) in turns.chain([(GlobalMethod::Accelerated, u64::MAX)]) {
+    for (method, budget) in turns {
         let end = stage(work, method, |work| limited(work, method, budget));
         if work.judge.error < best || answer.is_empty() {
             best = work.judge.error;
@@ -51,7 +55,12 @@ fn indeterminate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> S
             return ended(work, status, best, &answer);
         }
     }
-    ended(work, Status::Stalled, best, &answer)
+    work.r.copy_from_slice(&answer);
+    if work.problem.len() * D <= SMALL {
+        return determinate(work);
+    }
+    let end = stage(work, GlobalMethod::Accelerated, |work| Some(work.run(GlobalMethod::Accelerated)));
+    ended(work, end.unwrap_or(Status::Stalled), best, &answer)
 }
 
 fn determinate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
@@ -113,7 +122,7 @@ fn sweeps<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, budget: u64
 /// At most `budget` sweeps or steps of one method; how they ended the solve, if they did.
 fn limited<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, method: GlobalMethod, budget: u64) -> Option<Status> {
     let limit = work.judge.limit;
-    work.judge.limit = limit.min(work.judge.sweeps.saturating_add(budget));
+    work.judge.limit = limit.min(work.judge.sweeps + budget);
     let status = work.run(method);
     work.judge.limit = limit;
     (status != Status::MaxSweeps || work.judge.sweeps >= limit).then_some(status)
