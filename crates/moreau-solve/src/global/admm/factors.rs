@@ -4,7 +4,7 @@
 //! is zero by its law, or that impulses do not move, has a row of its own and stays as it is.
 
 use super::super::steps::scales;
-use super::{FILL, LIMIT};
+use super::FILL;
 use crate::block::Vector;
 use crate::{Cone, Operator, Problem};
 use faer::linalg::solvers::Solve;
@@ -64,9 +64,6 @@ impl ThroughContacts {
     /// `None` where the problem is too large.
     pub(super) fn new<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Option<Self> {
         let unknowns = problem.len() * D;
-        if unknowns > LIMIT {
-            return None;
-        }
         let (weights, greatest) = weights(problem);
         let weights: Vec<f64> = weights.into_iter().map(|w| if greatest > 0.0 { w / greatest } else { 0.0 }).collect();
         let mut entries: Vec<_> = (0..unknowns).filter(|&k| weights[k] == 0.0).map(|k| Triplet::new(k, k, 1.0)).collect();
