@@ -8,8 +8,9 @@
 //! | 3 | the scene or the problem in a file is wrong |
 //! | 4 | the computation failed: a solve of `moreau solve` or under the policy `stop` did not converge, or a number ceased to be finite |
 //! | 5 | solvers that should agree do not |
-//! | 130 | interrupted; what was computed is kept |
+//! | 130 | interrupted by Ctrl-C, SIGTERM or SIGHUP; what was computed is kept. By a second signal: ended at once; the last checkpoint is kept |
 
+use moreau::io::whole;
 use std::fmt::Display;
 use std::io::Write;
 use std::path::Path;
@@ -80,12 +81,6 @@ pub(crate) fn say(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// The folder of `path` and a new, nameless file in it.
-fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    tempfile::Builder::new().prefix(".moreau").tempfile_in(folder)
-}
-
 /// What went wrong with `path`, without the temporary names that an error may carry.
 fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {
     let reason = std::io::Error::from(error.kind());
@@ -97,20 +92,10 @@ pub(crate) fn writable(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::file(format!("cannot write {}: it is a folder; give the name of a file", path.display())));
     }
-    beside(path).map(drop).map_err(|error| cannot_write(path, &error))
+    whole::beside(path).map(drop).map_err(|error| cannot_write(path, &error))
 }
 
 /// Writes a whole file beside its place and renames it, so that nobody sees half of it.
 pub(crate) fn write_whole(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
-    let write = || {
-        let mut file = beside(path)?;
-        file.write_all(bytes.as_ref())?;
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
-        }
-        file.persist(path).map_err(|error| error.error)
-    };
-    write().map(drop).map_err(|error: std::io::Error| cannot_write(path, &error))
+    whole::write(path, &[bytes.as_ref()]).map_err(|error| cannot_write(path, &error))
 }

@@ -14,7 +14,6 @@ mod profile;
 mod progress;
 mod render;
 mod report;
-
 mod rho;
 mod run;
 mod scene;

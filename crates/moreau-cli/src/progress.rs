@@ -6,7 +6,7 @@ use moreau::step::StepRecord;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Set by Ctrl-C.
+/// Set by Ctrl-C, and on Unix by the signals that ask a program to end (SIGTERM) or tell that its terminal is gone (SIGHUP).
 static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Makes Ctrl-C end runs after the step at hand; a second one ends the program at once.

@@ -27,7 +27,12 @@ impl Running {
 
     /// Sends SIGINT, as a terminal does on Ctrl-C.
     fn interrupt(&self) {
-        let status = Command::new("sh").args(["-c", "kill -INT \"$0\"", &self.0.id().to_string()]).status().expect("sh");
+        self.send("INT");
+    }
+
+    fn send(&self, signal: &str) {
+        let words = ["-c", "kill -$1 \"$0\"", &self.0.id().to_string(), signal];
+        let status = Command::new("sh").args(words).status().expect("sh");
         assert!(status.success(), "the program ended before it was interrupted");
     }
 
@@ -70,7 +75,8 @@ fn a_run_keeps_what_it_computed() {
 
     let steps = place.summary("long")["steps"].as_u64().unwrap();
     assert!(0 < steps && steps < 1_000_000_000);
-    let message = format!("interrupted: the {steps} steps before are kept in long\n");
+    let go_on = format!("; to go on from step {steps}: moreau run --resume long");
+    let message = format!("interrupted: the {steps} steps before are kept in long{go_on}\n");
     assert_eq!(err, message, "one message and no progress bar");
     assert!(out.contains(&format!("{steps} steps")) && out.contains("results in long"), "{out}");
 
@@ -102,6 +108,43 @@ fn a_quiet_run_says_only_that_it_was_interrupted() {
     let (code, out, err) = running.end();
     assert_eq!((code, out.as_str()), (Some(130), ""));
     assert!(err.starts_with("interrupted: ") && err.lines().count() == 1, "{err}");
+}
+
+#[test]
+fn a_system_that_goes_down_may_ask_a_run_to_end() {
+    let place = Place::with("ten.toml", TEN);
+    for signal in ["TERM", "HUP"] {
+        let words = ["run", "ten.toml", "--out", signal, "--steps", "1000000000", "--quiet", "--set", "output.every=0"];
+        let running = Running::start(&place, &words);
+        wait_for_rows(&place, &format!("{signal}/steps.csv"));
+        running.send(signal);
+        let (code, _, err) = running.end();
+        assert_eq!(code, Some(130), "{err}");
+        assert!(err.contains(&format!("moreau run --resume {signal}")), "{err}");
+        let steps = place.summary(signal)["steps"].as_u64().unwrap();
+        place.moreau(&["run", "--resume", signal, "--steps", &(steps + 10).to_string(), "--quiet"]).fine();
+        assert_eq!(place.summary(signal)["steps"], steps + 10);
+    }
+}
+
+#[test]
+fn a_second_signal_ends_it_at_once() {
+    let place = Place::with("ten.toml", TEN);
+    // A step that takes hours: the first signal waits for its end.
+    let many = ["--set", "solver.max_sweeps=1000000000000", "--set", "solver.tolerance=1e-300", "--set", "solver.global=nlgs"];
+    let words = [&["run", "ten.toml", "--out", "slow", "--quiet"][..], &many].concat();
+    let running = Running::start(&place, &words);
+    let until = Instant::now() + Duration::from_secs(10);
+    while !place.path("slow/scene.toml").exists() {
+        assert!(Instant::now() < until, "it does not begin");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    running.interrupt();
+    std::thread::sleep(Duration::from_millis(300));
+    running.interrupt();
+    let (code, out, err) = running.end();
+    assert_eq!((code, out.as_str(), err.as_str()), (Some(130), "", ""));
 }
 
 #[test]

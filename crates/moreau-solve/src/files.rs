@@ -172,7 +172,7 @@ pub fn write(path: &Path, problem: &ProblemFile) -> Result<Vec<String>, FileErro
 fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".problem");
+    builder.prefix(".moreau-");
     // Who may read a problem is the user's choice, the mask; temporary files are their owner's alone otherwise.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));

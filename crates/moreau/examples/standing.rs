@@ -4,7 +4,7 @@
 //! Drift is the greatest way of a body from where it began, kinetic energy that of the last step over what lifts every body by its own
 //! radius, weight the vertical impulse of the supports over h against the weight, each worst over the last tenth of the run.
 
-use moreau::run::{End, run};
+use moreau::run::{End, Task, run};
 use moreau::scene::{AnyWorld, Scene};
 use moreau::shape::Shape;
 use moreau::space::Space;
@@ -110,7 +110,7 @@ fn tilt<S: Space<D, N>, const D: usize, const N: usize>(start: &World<S, D, N>) 
         world.gravity[0] = -g * degrees.to_radians().sin();
         world.gravity[D - 1] = g * degrees.to_radians().cos();
         let steps = (1.0 / world.settings.h).ceil() as u64;
-        let outcome = run(&mut world, &mut Workspace::default(), steps, &mut [], &AtomicBool::new(false), |_| {})?;
+        let outcome = run(&mut world, &mut Workspace::default(), Task::new(steps), &mut [], &AtomicBool::new(false), |_| {})?;
         if outcome.end != End::Done || drift(&world, start) > 0.1 {
             return Ok(Some(degrees));
         }

@@ -1,6 +1,6 @@
 //! The paper's comparison (section 5): one scene, one start, several solvers.
 
-use crate::run::{End, Unwritten, run};
+use crate::run::{End, Task, Unwritten, run};
 use crate::space::Space;
 use crate::step::{StepRecord, Workspace, step};
 use crate::world::{OnFailure, World};
@@ -51,7 +51,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Probe<S, D, N> {
     /// None of its own; the type is that of [`run`].
     pub fn new(start: &World<S, D, N>, number: u64, tolerance: f64, stop: &AtomicBool) -> Result<Option<Self>, Box<Unwritten>> {
         let mut before = start.clone();
-        let outcome = run(&mut before, &mut Workspace::default(), number.saturating_sub(1), &mut [], stop, |_| {})?;
+        let outcome = run(&mut before, &mut Workspace::default(), Task::new(number.saturating_sub(1)), &mut [], stop, |_| {})?;
         let settings = &mut before.settings;
         (settings.solver.tolerance, settings.on_failure) = (tolerance, OnFailure::Warn);
         settings.solver.max_sweeps = settings.solver.max_sweeps.saturating_mul(10).min(2_000_000);
@@ -120,14 +120,14 @@ pub fn compare_one<S: Space<D, N>, const D: usize, const N: usize>(
             // Nobody writes the problems of a comparison, and to keep them would count as time of the solver.
             world.settings.on_failure = OnFailure::Warn;
         }
-        let outcome = run(&mut world, &mut Workspace::default(), steps, &mut [], stop, &mut progress)?;
+        let outcome = run(&mut world, &mut Workspace::default(), Task::new(steps), &mut [], stop, &mut progress)?;
         Ok(Row {
             methods,
             end: outcome.end,
             steps: outcome.summary.steps(),
             unconverged: outcome.summary.unconverged(),
             sweeps: outcome.summary.sweeps_mean(),
-            seconds_total: outcome.seconds_total,
+            seconds_total: outcome.summary.seconds_total(),
             seconds_solve: outcome.summary.seconds_solve(),
             history: Vec::new(),
             disagreement,

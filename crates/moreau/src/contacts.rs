@@ -1,7 +1,7 @@
 //! What detection finds: points where two bodies touch or may touch within the step.
 
 /// Who touches whom, and where: equal from step to step as long as the contact lasts, so that impulses can warm-start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
 pub struct ContactKey {
     /// The body with the lower index (the antagonist, in the field's words).
     pub a: u32,

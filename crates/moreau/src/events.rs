@@ -4,8 +4,10 @@
 //! is booked as work (theory, section 19). All is done in a fixed order by one thread.
 
 mod flow;
+mod state;
 
 pub use flow::{Rain, Sink, Source};
+pub(crate) use state::ScheduleState;
 
 use crate::bodies::{Bodies, Motion};
 use crate::drive::{Drive, mean};

@@ -1,3 +1,4 @@
 //! Files.
 
 pub mod vtk;
+pub mod whole;

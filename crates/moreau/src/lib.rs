@@ -4,6 +4,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod bodies;
+pub mod checkpoint;
 pub mod compare;
 pub mod contacts;
 pub mod detect;

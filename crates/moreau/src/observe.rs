@@ -21,6 +21,7 @@ pub use summary::Summary;
 pub use trajectory::TrajectoryOutput;
 pub use vtk::VtkOutput;
 
+use crate::checkpoint::Mark;
 use crate::space::Space;
 use crate::step::{FailedSolve, Localised, StepRecord};
 use crate::world::World;
@@ -59,6 +60,15 @@ pub enum OutputError {
         /// Why.
         source: std::io::Error,
     },
+    /// A file to go on with that is not what the run left.
+    #[error("cannot go on with {}: it is not what the run wrote; move it away, and the run begins it anew from here", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A checkpoint.
+    #[error(transparent)]
+    Checkpoint(#[from] crate::checkpoint::CheckpointError),
     /// By the word of the writer of problem files.
     #[error(transparent)]
     Problem(#[from] moreau_solve::files::FileError),
@@ -90,6 +100,15 @@ pub trait Observer<S: Space<D, N>, const D: usize, const N: usize>: Send {
     /// # Errors
     /// Where what it writes cannot be written.
     fn see_failed(&mut self, _: &FailedSolve) -> Result<Option<String>, OutputError> {
+        Ok(None)
+    }
+
+    /// Brings into its files all that it saw so far, for a checkpoint is about to say that it is there; gives the mark by which a file
+    /// that is cut off again at this place is known.
+    ///
+    /// # Errors
+    /// Where what it writes cannot be written.
+    fn sync(&mut self) -> Result<Option<Mark>, OutputError> {
         Ok(None)
     }
 

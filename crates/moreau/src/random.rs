@@ -4,7 +4,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 /// A generator of fixed kind. Only sums, products, square roots and logarithms of our own follow it, which every machine rounds alike.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Random(Pcg64Mcg);
 
 impl Random {

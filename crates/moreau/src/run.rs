@@ -1,5 +1,6 @@
 //! A run: steps, observers, an orderly end.
 
+use crate::checkpoint::{Checkpoint, Checkpoints, Mark};
 use crate::observe::{Frame, Observer, OutputError, Summary};
 use crate::space::Space;
 use crate::step::{FailedSolve, StepError, StepRecord, Workspace, step};
@@ -27,10 +28,24 @@ pub struct Outcome {
     pub end: End,
     /// Sums over its steps.
     pub summary: Summary,
-    /// Wall-clock seconds of all of it.
-    pub seconds_total: f64,
-    /// Of these, in observers: what the run waited for. An observer may go on with its files beside the steps.
-    pub seconds_output: f64,
+}
+
+/// What a run is to do.
+#[derive(Debug, Default)]
+pub struct Task<'a> {
+    /// How many steps.
+    pub steps: u64,
+    /// What it came to before, where it goes on from a checkpoint: observers have seen the start then.
+    pub before: Summary,
+    /// Where it is kept: the scene as TOML, and the folder's checkpoints.
+    pub kept: Option<(&'a str, Checkpoints)>,
+}
+
+impl Task<'_> {
+    /// So many steps from the start, of which no checkpoint is kept.
+    pub fn new(steps: u64) -> Self {
+        Self { steps, ..Self::default() }
+    }
 }
 
 /// A run of which an observer could not write something: it ended there, and all observers were asked to complete their files.
@@ -43,24 +58,26 @@ pub struct Unwritten {
     pub outcome: Outcome,
 }
 
-/// Advances `world` by `steps` steps, shows each frame to the observers and each record to `progress`; ends early, with what was
-/// computed kept, when `stop` is set.
+/// Advances `world` by some steps, shows each frame to the observers and each record to `progress`, and keeps checkpoints; ends early, with
+/// what was computed kept, when `stop` is set.
 ///
 /// # Errors
 /// Where an observer cannot write. A step that fails is no error but an [`End`].
 pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
-    steps: u64,
+    task: Task<'_>,
     observers: &mut [Box<dyn Observer<S, D, N> + '_>],
     stop: &AtomicBool,
     mut progress: impl FnMut(&StepRecord),
 ) -> Result<Outcome, Box<Unwritten>> {
-    let started = Instant::now();
-    let mut audience = Audience { observers, error: None, seconds: 0.0 };
-    let mut summary = Summary::default();
+    let Task { steps, before: mut summary, kept } = task;
+    let mut keeper = kept.map(|(scene, checkpoints)| Keeper { scene, checkpoints });
+    let mut audience = Audience { observers, error: None, seconds: 0.0, since: Instant::now() };
     let mut end = End::Done;
-    audience.see(&Frame { world, contacts: work.contacts(), record: None });
+    if summary.steps() == 0 {
+        audience.see(&Frame { world, contacts: work.contacts(), record: None });
+    }
     for _ in 0..steps {
         if audience.error.is_some() {
             break;
@@ -77,6 +94,9 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
             Ok(record) => {
                 summary.add(&record);
                 audience.see(&Frame { world, contacts: work.contacts(), record: Some(&record) });
+                if let Some(keeper) = keeper.as_mut().filter(|keeper| keeper.checkpoints.due(world.steps)) {
+                    keeper.keep(&mut audience, &mut summary, world, work);
+                }
                 progress(&record);
             }
             Err(error) => {
@@ -85,15 +105,47 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
             }
         }
     }
+    // After a step that failed the world is not what it was before it.
+    let whole = matches!(end, End::Done | End::Interrupted);
+    if let Some(keeper) = keeper.as_mut().filter(|keeper| whole && keeper.checkpoints.due_at_end(world.steps)) {
+        keeper.keep(&mut audience, &mut summary, world, work);
+    }
     audience.finish();
+    audience.count_seconds(&mut summary);
     if audience.error.is_some() && end == End::Done {
         end = End::Unwritten;
     }
-    let Audience { error, seconds: seconds_output, .. } = audience;
-    let outcome = Outcome { end, summary, seconds_total: started.elapsed().as_secs_f64(), seconds_output };
-    match error {
+    let outcome = Outcome { end, summary };
+    match audience.error {
         Some(error) => Err(Box::new(Unwritten { error, outcome })),
         None => Ok(outcome),
+    }
+}
+
+/// Who keeps checkpoints.
+struct Keeper<'a> {
+    scene: &'a str,
+    checkpoints: Checkpoints,
+}
+
+impl Keeper<'_> {
+    /// Keeps the run as it is, once all files have what came before. Nothing is kept of a run that cannot write.
+    fn keep<S: Space<D, N>, const D: usize, const N: usize>(
+        &mut self,
+        audience: &mut Audience<'_, '_, S, D, N>,
+        summary: &mut Summary,
+        world: &World<S, D, N>,
+        work: &Workspace<S, D, N>,
+    ) {
+        let marks = audience.sync();
+        if audience.error.is_some() {
+            return;
+        }
+        audience.count_seconds(summary);
+        let clock = Instant::now();
+        let checkpoint = Checkpoint::take(self.scene, (summary.clone(), marks), world, work);
+        audience.error = self.checkpoints.save(&checkpoint).err().map(OutputError::from);
+        audience.seconds += clock.elapsed().as_secs_f64();
     }
 }
 
@@ -102,7 +154,9 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
 struct Audience<'a, 'b, S: Space<D, N>, const D: usize, const N: usize> {
     observers: &'a mut [Box<dyn Observer<S, D, N> + 'b>],
     error: Option<OutputError>,
+    /// Seconds that the run waited for, and since when the summary has none of all.
     seconds: f64,
+    since: Instant,
 }
 
 impl<'b, S: Space<D, N>, const D: usize, const N: usize> Audience<'_, 'b, S, D, N> {
@@ -118,6 +172,22 @@ impl<'b, S: Space<D, N>, const D: usize, const N: usize> Audience<'_, 'b, S, D, 
             observer.see_failed(failed)?.into_iter().for_each(|name| summary.add_failed(name));
             Ok(())
         });
+    }
+
+    /// Has all files hold what was seen; gives the marks by which they are known.
+    fn sync(&mut self) -> Vec<Mark> {
+        let mut marks = Vec::new();
+        self.each(|observer| {
+            marks.extend(observer.sync()?);
+            Ok(())
+        });
+        marks
+    }
+
+    /// Adds the seconds since the last time to the summary.
+    fn count_seconds(&mut self, summary: &mut Summary) {
+        summary.add_seconds(self.since.elapsed().as_secs_f64(), std::mem::take(&mut self.seconds));
+        self.since = Instant::now();
     }
 
     fn finish(&mut self) {

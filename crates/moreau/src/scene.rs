@@ -54,7 +54,9 @@ pub use events::{DriveSpec, SinkSpec, SourceSpec};
 pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Range};
 pub use joints::{JointKindSpec, JointSpec};
 pub use shape::{PartSpec, ShapeSpec};
-pub use spec::{BodySpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver, StartSpec, Time};
+pub use spec::{
+    BodySpec, CheckpointSpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver, StartSpec, Time,
+};
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 
 use crate::space::{Plane, Solid};
@@ -122,6 +124,9 @@ pub struct Scene {
     /// What a run writes.
     #[serde(default)]
     pub output: Output,
+    /// How often the run is kept, so that it can go on after whatever stopped it.
+    #[serde(default)]
+    pub checkpoint: CheckpointSpec,
     /// What is asked of the first configuration.
     #[serde(default)]
     pub start: StartSpec,

@@ -79,10 +79,21 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
     /// The orientation as a unit quaternion (x, y, z, w), for files.
     fn quaternion(rotation: Self::Rotation) -> [f64; 4];
 
+    /// The orientation as it is, bit by bit, in up to four numbers; the others are zeros.
+    fn numbers(rotation: Self::Rotation) -> [f64; 4];
+
+    /// The orientation that has these numbers, if they are some.
+    fn from_numbers(numbers: [f64; 4]) -> Option<Self::Rotation>;
+
     /// [`crate::step::step`] in this dimension: all that a step is made of is compiled here, once, and not in every program that
     /// calls it.
     ///
     /// # Errors
     /// As there.
     fn step(world: &mut World<Self, D, N>, work: &mut Workspace<Self, D, N>) -> Result<StepRecord, StepError>;
+}
+
+/// Whether numbers are those of an orientation: of length 1.
+fn is_unit(numbers: &[f64]) -> bool {
+    (numbers.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-6
 }

@@ -9,6 +9,7 @@ mod joints;
 mod localise;
 mod moreau_jean;
 mod record;
+mod state;
 mod system;
 mod workspace;
 
@@ -17,6 +18,7 @@ pub use joints::Reaction;
 pub use moreau_jean::step;
 pub(crate) use moreau_jean::step_in;
 pub use record::{Energy, Seconds, StepRecord};
+pub(crate) use state::WorkspaceState;
 pub use workspace::{Localised, Workspace};
 
 /// Why a run cannot go on.

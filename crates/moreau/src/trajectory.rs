@@ -131,6 +131,19 @@ impl Batch {
         self.rows.extend(&other.rows);
     }
 
+    /// Takes over a frame that was read.
+    fn push(&mut self, frame: TrajectoryFrame) {
+        let TrajectoryFrame { step, time, position, rotation, velocity, spin, pairs, point, normal, impulse, gap, status } =
+            frame;
+        self.step.push(step);
+        self.time.push(time);
+        self.contacts.push(status.len() as u64);
+        let reals = [position, rotation, velocity, spin, point, normal, impulse, gap];
+        self.reals.iter_mut().zip(reals).for_each(|(to, from)| to.extend(from));
+        self.pairs.iter_mut().zip(pairs).for_each(|(to, from)| to.extend(from));
+        self.status.extend(status);
+    }
+
     /// Whether there is nothing to write.
     pub fn is_empty(&self) -> bool {
         self.step.is_empty() && self.rows.is_empty()

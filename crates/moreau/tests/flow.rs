@@ -1,7 +1,7 @@
 //! Bodies that come and go: gates, sources, sinks.
 
 use moreau::observe::{Observer, VtkOutput};
-use moreau::run::run;
+use moreau::run::{Task, run};
 use moreau::scene::{AnyWorld, Scene};
 use moreau::space::{Solid, Space};
 use moreau::step::{StepRecord, Workspace, step};
@@ -218,7 +218,7 @@ fn files_leave_out_who_is_not_there() {
     let mut observers: [Box<dyn Observer<Solid, 3, 6>>; 1] = [Box::new(VtkOutput::create(folder.path(), 50).unwrap())];
     let mut counts = vec![world.bodies.present()];
     let stop = AtomicBool::new(false);
-    run(&mut world, &mut Workspace::default(), 600, &mut observers, &stop, |record| {
+    run(&mut world, &mut Workspace::default(), Task::new(600), &mut observers, &stop, |record| {
         if record.step % 50 == 0 {
             counts.push(record.bodies);
         }

@@ -1,7 +1,7 @@
 //! What a step does besides contacts between free bodies: loads, driven bodies, closing gaps, and what happens when a solve fails.
 
 use moreau::observe::{Frame, Observer, OutputError};
-use moreau::run::{End, run};
+use moreau::run::{End, Task, run};
 use moreau::scene::{AnyWorld, Scene};
 use moreau::space::{Plane, Solid};
 use moreau::step::{FailedSolve, StepError, Workspace, step};
@@ -206,7 +206,7 @@ fn an_observer_that_cannot_write_ends_the_run_and_all_observers_finish() {
     let mut observers = [counter(4), counter(100)];
     let stop = AtomicBool::new(false);
     let mut world = hopeless("dump", 2);
-    let unwritten = run(&mut world, &mut Workspace::default(), 10, &mut observers, &stop, |_| {}).unwrap_err();
+    let unwritten = run(&mut world, &mut Workspace::default(), Task::new(10), &mut observers, &stop, |_| {}).unwrap_err();
     drop(observers);
     assert!(unwritten.to_string().contains("cannot write full"), "{unwritten}");
     assert_eq!((unwritten.outcome.end, unwritten.outcome.summary.steps()), (End::Unwritten, 2));

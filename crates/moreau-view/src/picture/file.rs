@@ -1,6 +1,7 @@
 //! Files that appear whole or not at all.
 
 use super::Error;
+use moreau::io::whole;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -8,21 +9,7 @@ use tempfile::NamedTempFile;
 
 /// A file beside `path` that is to take its name.
 pub(super) fn beside(path: &Path) -> Result<NamedTempFile, Error> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    // An ending of its own kind: programs that write by name look at it.
-    let ending = path.extension().map_or_else(String::new, |e| format!(".{}", e.to_string_lossy()));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".moreau-").suffix(&ending);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any new file, less what the user's mask takes away: temporary files are private.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder).map_err(|source| failed(path, source))
+    whole::beside(path).map_err(|source| failed(path, source))
 }
 
 /// Gives the file its name.

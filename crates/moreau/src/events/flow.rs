@@ -45,6 +45,17 @@ impl<const D: usize, const N: usize> Source<D, N> {
         Self { rain, count: 0, random, near: Vec::new() }
     }
 
+    /// How many have come, and the generator of places.
+    pub(super) fn state(&self) -> (usize, Random) {
+        (self.count, self.random.clone())
+    }
+
+    /// Goes on from there, if so many can have come.
+    pub(super) fn restore(&mut self, (count, random): &(usize, Random)) -> Option<()> {
+        (self.count, self.random) = (*count, random.clone());
+        (*count <= self.rain.bodies.len()).then_some(())
+    }
+
     /// Puts in the bodies that are due at `time`, or until `now`, which allows for the rounding of clocks, as far as there is room;
     /// returns their indices.
     pub(super) fn rain<S: Space<D, N>>(&mut self, bodies: &mut Bodies<S, D, N>, time: f64, now: f64) -> Range<usize> {

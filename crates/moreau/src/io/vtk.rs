@@ -46,6 +46,7 @@ pub use series::Series;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use super::whole;
 use appended::Appended;
 
 /// Points in space, the cells on them and the arrays on both, at one time.
@@ -116,7 +117,9 @@ impl Writer {
     pub fn write(&mut self, path: &Path, data: &PolyData) -> Result<(), VtkError> {
         check::poly_data(path, data)?;
         self.render(data).map_err(|source| VtkError::io(path, source))?;
-        file::replace(path, &[self.head.as_bytes(), self.body.bytes(), b"\n  </AppendedData>\n</VTKFile>\n"])
+        // The disk is not asked to sync: these are results to look at, and a sync a frame would cost more than the frame.
+        let parts = [self.head.as_bytes(), self.body.bytes(), b"\n  </AppendedData>\n</VTKFile>\n"];
+        whole::write(path, &parts).map_err(|source| VtkError::io(path, source))
     }
 
     /// The XML up to and with the underscore that opens the appended section, and that section.

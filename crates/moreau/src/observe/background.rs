@@ -24,12 +24,24 @@ pub(super) trait Writer<T>: Send + 'static {
 
     /// Writes what can be put off: called when there is nothing to do, and at the end, also after an error.
     fn catch_up(&mut self) -> Result<(), OutputError>;
+
+    /// As [`Self::catch_up`], and asks the disk to keep it.
+    fn sync(&mut self) -> Result<(), OutputError> {
+        self.catch_up()
+    }
+}
+
+/// What the thread is asked for.
+enum Order<T> {
+    Write(T),
+    /// To have all before on the disk, and say so.
+    Sync(Sender<()>),
 }
 
 /// The thread, as the run sees it. It ends with the first error, or when this is finished or dropped, after all that was given.
 #[derive(Debug)]
 pub(super) struct Background<T> {
-    give: Option<SyncSender<T>>,
+    give: Option<SyncSender<Order<T>>>,
     back: Receiver<T>,
     thread: Option<JoinHandle<Result<(), OutputError>>>,
 }
@@ -57,9 +69,20 @@ impl<T: Send + 'static> Background<T> {
     /// Where something given before could not be written; this is told once.
     pub(super) fn give(&mut self, thing: T) -> Result<(), OutputError> {
         match &self.give {
-            Some(give) if give.send(thing).is_ok() => Ok(()),
+            Some(give) if give.send(Order::Write(thing)).is_ok() => Ok(()),
             _ => self.finish(),
         }
+    }
+
+    /// Waits until all that was given is on the disk.
+    ///
+    /// # Errors
+    /// As for [`Self::give`].
+    pub(super) fn sync(&mut self) -> Result<(), OutputError> {
+        let (done, wait) = channel();
+        let asked = self.give.as_ref().is_some_and(|give| give.send(Order::Sync(done)).is_ok());
+        // It does not answer where it ended, which is an error.
+        if asked && wait.recv().is_ok() { Ok(()) } else { self.finish() }
     }
 
     /// Whether all went well so far; does not wait.
@@ -83,9 +106,15 @@ impl<T: Send + 'static> Background<T> {
 }
 
 /// All that the thread does. What was written goes back, for its memory.
-fn work<T>(mut writer: impl Writer<T>, things: &Receiver<T>, done: &Sender<T>) -> Result<(), OutputError> {
+fn work<T>(mut writer: impl Writer<T>, things: &Receiver<Order<T>>, done: &Sender<T>) -> Result<(), OutputError> {
     let mut next = || match things.recv_timeout(PAUSE) {
-        Ok(thing) => {
+        Ok(Order::Sync(done)) => {
+            writer.sync()?;
+            // Nobody waits for it where the run is over.
+            let _ = done.send(());
+            Ok(true)
+        }
+        Ok(Order::Write(thing)) => {
             writer.write(&thing)?;
             // Nobody takes it back where the run is over.
             let _ = done.send(thing);

@@ -2,6 +2,7 @@
 
 use super::table::Table;
 use super::{Frame, Observer, OutputError};
+use crate::checkpoint::Mark;
 use crate::measure::{self, Touch};
 use crate::space::Space;
 use std::fmt::Write as _;
@@ -23,6 +24,14 @@ impl MeasuresCsv {
     /// Where it cannot be created.
     pub fn create(path: &Path, every: u64, dimension: usize) -> Result<Self, OutputError> {
         Ok(Self { every: every.max(1), table: Table::create(path, &header(dimension))? })
+    }
+
+    /// Goes on with the file of a run that was stopped: rows after the mark are taken out.
+    ///
+    /// # Errors
+    /// Where it cannot be written, or is not what the run left.
+    pub fn resume(path: &Path, every: u64, mark: &Mark) -> Result<Self, OutputError> {
+        Ok(Self { every: every.max(1), table: Table::resume(path, mark)? })
     }
 }
 
@@ -58,6 +67,10 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Observer<S, D, N> for Measu
         }
         row.push('\n');
         self.table.put()
+    }
+
+    fn sync(&mut self) -> Result<Option<Mark>, OutputError> {
+        self.table.sync().map(Some)
     }
 
     fn finish(&mut self) -> Result<(), OutputError> {

@@ -2,6 +2,7 @@
 
 use super::table::Table;
 use super::{Frame, Observer, OutputError};
+use crate::checkpoint::Mark;
 use crate::space::Space;
 use crate::step::StepRecord;
 use std::fmt::Write as _;
@@ -81,6 +82,14 @@ impl StepsCsv {
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         Ok(Self { table: Table::create(path, &COLUMNS.join(","))? })
     }
+
+    /// Goes on with the file of a run that was stopped: rows after the mark are taken out.
+    ///
+    /// # Errors
+    /// Where it cannot be written, or is not what the run left.
+    pub fn resume(path: &Path, mark: &Mark) -> Result<Self, OutputError> {
+        Ok(Self { table: Table::resume(path, mark)? })
+    }
 }
 
 /// Puts one row in place of what is in `row`.
@@ -104,6 +113,10 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Observer<S, D, N> for Steps
         // A string takes all that is formatted.
         let _ = format(&mut self.table.row, record);
         self.table.put()
+    }
+
+    fn sync(&mut self) -> Result<Option<Mark>, OutputError> {
+        self.table.sync().map(Some)
     }
 
     fn finish(&mut self) -> Result<(), OutputError> {

@@ -1,11 +1,12 @@
 //! What a whole run comes to: the numbers of `summary.json`.
 
-use crate::step::StepRecord;
+use crate::step::{Energy, StepRecord};
 use crate::world::StepSettings;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 /// Sums and extremes over the steps of a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     steps: u64,
     contacts: u64,
@@ -21,7 +22,11 @@ pub struct Summary {
     detect: f64,
     localise: f64,
     solve: f64,
-    last: StepRecord,
+    total: f64,
+    output: f64,
+    time: f64,
+    contacts_last: usize,
+    energy: Energy,
 }
 
 impl Summary {
@@ -39,7 +44,7 @@ impl Summary {
         self.detect += record.seconds.detect;
         self.localise += record.seconds.localise;
         self.solve += record.seconds.solve;
-        self.last = record.clone();
+        (self.time, self.contacts_last, self.energy) = (record.time, record.contacts, record.energy);
     }
 
     /// Adds the name of a file with the problem of a failed solve.
@@ -77,20 +82,35 @@ impl Summary {
         mean(self.sweeps, self.steps)
     }
 
+    /// Adds wall-clock seconds, of the whole run and of its waiting for files.
+    pub(crate) fn add_seconds(&mut self, total: f64, output: f64) {
+        self.total += total;
+        self.output += output;
+    }
+
+    /// Wall-clock seconds of the whole run.
+    pub fn seconds_total(&self) -> f64 {
+        self.total
+    }
+
+    /// Of these, in observers and checkpoints: what the run waited for. An observer may go on with its files beside the steps.
+    pub fn seconds_output(&self) -> f64 {
+        self.output
+    }
+
     /// Seconds spent on contact impulses.
     pub fn seconds_solve(&self) -> f64 {
         self.solve
     }
 
-    /// The object of `summary.json`; `bodies` is how many are there at the end, `total` and `output` are seconds of the whole run and of its
-    /// waiting for files.
-    pub fn to_json(&self, bodies: usize, settings: &StepSettings, threads: usize, total: f64, output: f64) -> Value {
-        let (energy, solver) = (&self.last.energy, &settings.solver);
+    /// The object of `summary.json`; `bodies` is how many are there at the end.
+    pub fn to_json(&self, bodies: usize, settings: &StepSettings, threads: usize) -> Value {
+        let (energy, solver) = (&self.energy, &settings.solver);
         json!({
             "steps": self.steps,
             "bodies": bodies,
-            "time": self.last.time,
-            "contacts_last": self.last.contacts,
+            "time": self.time,
+            "contacts_last": self.contacts_last,
             "contacts_mean": mean(self.contacts, self.steps),
             "sweeps_mean": self.sweeps_mean(),
             "sweeps_max": self.sweeps_max,
@@ -108,11 +128,11 @@ impl Summary {
                 "balance_error_max": self.balance_error_max,
             },
             "seconds": {
-                "total": total,
+                "total": self.total,
                 "detect": self.detect,
                 "localise": self.localise,
                 "solve": self.solve,
-                "output": output,
+                "output": self.output,
             },
             "threads": threads,
             "solver": { "global": solver.global.name(), "local": solver.local.name(), "tolerance": solver.tolerance },

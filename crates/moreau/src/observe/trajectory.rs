@@ -5,6 +5,7 @@
 use super::background::{self, Background};
 use super::status::status;
 use super::{Frame, Observer, OutputError, numbers};
+use crate::checkpoint::Mark;
 use crate::shape::Shape;
 use crate::space::Space;
 use crate::step::Localised;
@@ -53,7 +54,19 @@ impl TrajectoryOutput {
             material: bodies.material.clone(),
             free: (0..bodies.len()).map(|i| bodies.is_free(i)).collect(),
         };
-        let file = TrajectoryWriter::create(path, &header, precision)?;
+        Self::of(path, every, TrajectoryWriter::create(path, &header, precision)?)
+    }
+
+    /// Goes on with the file of a run that was stopped: frames and records after step `last` are left out, and every `every`-th step will be
+    /// a frame.
+    ///
+    /// # Errors
+    /// Where it cannot be read or written, or lacks something up to that step.
+    pub fn resume(path: &Path, (every, precision): (u64, Precision), last: u64) -> Result<Self, OutputError> {
+        Self::of(path, every, TrajectoryWriter::resume(path, (every, precision), last)?)
+    }
+
+    fn of(path: &Path, every: u64, file: TrajectoryWriter) -> Result<Self, OutputError> {
         let writer = Writer { file, waiting: Batch::default(), last: Instant::now() };
         Ok(Self { every, file: Background::start(writer).map_err(OutputError::io(path))?, waiting: Batch::default() })
     }
@@ -73,6 +86,13 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Observer<S, D, N> for Traje
             take(&mut self.waiting, frame);
         }
         if is_frame || self.waiting.rows.len() >= ROWS { self.give() } else { self.file.check() }
+    }
+
+    fn sync(&mut self) -> Result<Option<Mark>, OutputError> {
+        if !self.waiting.is_empty() {
+            self.give()?;
+        }
+        self.file.sync().map(|()| None)
     }
 
     fn finish(&mut self) -> Result<(), OutputError> {
@@ -133,5 +153,10 @@ impl background::Writer<Batch> for Writer {
         self.waiting.clear();
         self.last = Instant::now();
         Ok(written?)
+    }
+
+    fn sync(&mut self) -> Result<(), OutputError> {
+        self.catch_up()?;
+        Ok(self.file.sync()?)
     }
 }

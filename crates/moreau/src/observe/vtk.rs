@@ -14,6 +14,7 @@ mod tests;
 
 use super::background::Background;
 use super::{Frame, Observer, OutputError};
+use crate::checkpoint::Mark;
 use crate::space::Space;
 use files::Files;
 use shapes::Drawing;
@@ -38,7 +39,19 @@ impl VtkOutput {
     /// Where the folder cannot be made, or there can be no thread.
     pub fn create(folder: &Path, every: u64) -> Result<Self, OutputError> {
         std::fs::create_dir_all(folder).map_err(OutputError::io(folder))?;
-        let files = Background::start(Files::new(folder)).map_err(OutputError::io(folder))?;
+        Self::of(folder, every, Files::new(folder))
+    }
+
+    /// Goes on with the frames of a run that was stopped: those after step `last` are taken out.
+    ///
+    /// # Errors
+    /// As [`Self::create`], and where a collection is none or names frames that are not there.
+    pub fn resume(folder: &Path, every: u64, last: u64) -> Result<Self, OutputError> {
+        Self::of(folder, every, Files::resume(folder, last)?)
+    }
+
+    fn of(folder: &Path, every: u64, files: Files) -> Result<Self, OutputError> {
+        let files = Background::start(files).map_err(OutputError::io(folder))?;
         Ok(Self { every: every.max(1), files, drawing: Arc::default() })
     }
 }
@@ -51,6 +64,10 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Observer<S, D, N> for VtkOu
         let mut snapshot = self.files.used().unwrap_or_default();
         snapshot.take(frame, &mut self.drawing);
         self.files.give(snapshot)
+    }
+
+    fn sync(&mut self) -> Result<Option<Mark>, OutputError> {
+        self.files.sync().map(|()| None)
     }
 
     fn finish(&mut self) -> Result<(), OutputError> {

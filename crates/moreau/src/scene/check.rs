@@ -12,7 +12,7 @@ pub(super) use plane::{Refusal, polygon_error, polyline_error};
 
 use super::error::{Fault, nearest};
 use super::path::{KeyPath, Segment, key_path};
-use super::{Angular, Output, Scene};
+use super::{Angular, CheckpointSpec, Output, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The most bodies that there can be: their indices are 32 bits wide, and one is kept for "none".
@@ -39,6 +39,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
         return Err(Fault::new(key_path!["start", "max_overlap"], format!("max_overlap is {max_overlap}"), hint));
     }
     output(&scene.output)?;
+    checkpoint(&scene.checkpoint)?;
     bodies::check(scene)?;
     builders::check(scene)?;
     generate::check(scene)?;
@@ -100,6 +101,14 @@ fn output(output: &Output) -> Result<(), Fault> {
     twice.map_or(Ok(()), |i| {
         Err(Fault::new(key_path!["output", "kinds", i], "the same kind of output twice", "expected each kind at most once"))
     })
+}
+
+fn checkpoint(checkpoint: &CheckpointSpec) -> Result<(), Fault> {
+    if checkpoint.seconds >= 0.0 {
+        return Ok(());
+    }
+    let message = format!("checkpoints each {} s", checkpoint.seconds);
+    Err(Fault::new(key_path!["checkpoint", "seconds"], message, "expected seconds, or 0 for none by the clock"))
 }
 
 /// Counts the bodies before any is made.

@@ -297,6 +297,22 @@ impl Default for Output {
     }
 }
 
+/// How often a run is kept, so that it can go on after whatever stopped it. The last two checkpoints are in its folder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CheckpointSpec {
+    /// Steps from one to the next; 0 for none by steps.
+    pub every: u64,
+    /// Seconds of the clock on the wall from one to the next; 0 for none by the clock. Where one of the two is not 0, there is also one at the end.
+    pub seconds: f64,
+}
+
+impl Default for CheckpointSpec {
+    fn default() -> Self {
+        Self { every: 0, seconds: 600.0 }
+    }
+}
+
 /// One kind of output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

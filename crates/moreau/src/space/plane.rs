@@ -1,6 +1,6 @@
 //! The plane: a velocity is (v_x, v_y, ω), a rotation a unit complex number.
 
-use super::Space;
+use super::{Space, is_unit};
 use crate::shape::PlaneShape;
 use crate::step::{StepError, StepRecord, Workspace, step_in};
 use crate::world::World;
@@ -69,6 +69,14 @@ impl Space<2, 3> for Plane {
         let half_cos = (0.5 * (1.0 + c)).max(0.0).sqrt();
         let half_sin = (0.5 * (1.0 - c)).max(0.0).sqrt().copysign(s);
         [0.0, 0.0, half_sin, half_cos]
+    }
+
+    fn numbers([c, s]: [f64; 2]) -> [f64; 4] {
+        [c, s, 0.0, 0.0]
+    }
+
+    fn from_numbers([c, s, ..]: [f64; 4]) -> Option<[f64; 2]> {
+        is_unit(&[c, s]).then_some([c, s])
     }
 
     fn step(world: &mut World<Self, 2, 3>, work: &mut Workspace<Self, 2, 3>) -> Result<StepRecord, StepError> {

@@ -1,6 +1,6 @@
 //! Space: a velocity is (v_x, v_y, v_z) in the world and (ω₁, ω₂, ω₃) in the body, a rotation a unit quaternion.
 
-use super::Space;
+use super::{Space, is_unit};
 use crate::shape::SolidShape;
 use crate::step::{StepError, StepRecord, Workspace, step_in};
 use crate::world::World;
@@ -115,6 +115,14 @@ impl Space<3, 6> for Solid {
 
     fn quaternion(rotation: DQuat) -> [f64; 4] {
         rotation.to_array()
+    }
+
+    fn numbers(rotation: DQuat) -> [f64; 4] {
+        rotation.to_array()
+    }
+
+    fn from_numbers(numbers: [f64; 4]) -> Option<DQuat> {
+        is_unit(&numbers).then(|| DQuat::from_array(numbers))
     }
 
     fn step(world: &mut World<Self, 3, 6>, work: &mut Workspace<Self, 3, 6>) -> Result<StepRecord, StepError> {

@@ -52,7 +52,7 @@ pub struct Reaction<const D: usize> {
 #[derive(Clone, Debug)]
 pub(super) struct StepJoints<const D: usize, const N: usize> {
     pub(super) blocks: Vec<Block<D, N>>,
-    previous: Vec<[f64; D]>,
+    pub(super) previous: Vec<[f64; D]>,
     pub(super) reactions: Vec<Reaction<D>>,
     /// The greatest error of position that was measured last, m.
     pub(super) left: f64,

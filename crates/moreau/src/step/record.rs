@@ -7,9 +7,10 @@ use crate::space::Space;
 use moreau_solve::block::dot;
 use moreau_solve::tasks;
 use moreau_solve::{Residual, Status};
+use serde::{Deserialize, Serialize};
 
 /// The energy of the free bodies, J, and what has gone in and out since the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
     /// Σ ½ v·M v.
     pub kinetic: f64,
@@ -77,7 +78,7 @@ impl StepRecord {
 }
 
 /// The running sums of the energy ledger.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Ledger {
     start: Option<f64>,
     work: f64,

@@ -106,13 +106,13 @@ impl Trajectory {
         let mut reals = widths(self.header.dimension).into_iter().zip(REALS).map(|(width, name)| {
             let width = width as u64;
             let (start, rows) = if name.starts_with("frames/") { (i as u64 * bodies, bodies) } else { (first, count) };
-            self.rows(name, [start * width, rows * width], Dataset::read_f64_rows)
+            self.numbers(name, [start * width, rows * width], Dataset::read_f64_rows)
         });
         let mut next = || reals.next().unwrap_or_else(|| Ok(Vec::new()));
         let (position, rotation, velocity, spin) = (next()?, next()?, next()?, next()?);
         let (point, normal, impulse, gap) = (next()?, next()?, next()?, next()?);
-        let [a, b] = PAIRS.map(|name| self.rows(name, [first, count], Dataset::read_u32_rows));
-        let status = self.rows("contacts/status", [first, count], Dataset::read_u8_rows)?;
+        let [a, b] = PAIRS.map(|name| self.numbers(name, [first, count], Dataset::read_u32_rows));
+        let status = self.numbers("contacts/status", [first, count], Dataset::read_u8_rows)?;
         let (step, time, pairs) = (self.step[i], self.time[i], [a?, b?]);
         if pairs.iter().flatten().any(|&body| u64::from(body) >= bodies) {
             return Err(TrajectoryError::new(&self.path, format!("frame {i} has a contact of a body that does not exist")));
@@ -125,13 +125,19 @@ impl Trajectory {
     /// # Errors
     /// Where the file cannot be read.
     pub fn columns(&self) -> Result<Vec<Vec<f64>>, TrajectoryError> {
-        let numbers = read(&self.file, &self.path, "steps", Dataset::read_f64)?;
-        let (rows, _) = numbers.as_chunks::<{ COLUMNS.len() }>();
+        let rows = self.rows_until(u64::MAX)?;
         Ok((0..COLUMNS.len()).map(|k| rows.iter().map(|row| row[k]).collect()).collect())
     }
 
+    /// The records of steps up to this one.
+    pub(super) fn rows_until(&self, last: u64) -> Result<Vec<[f64; COLUMNS.len()]>, TrajectoryError> {
+        let numbers = read(&self.file, &self.path, "steps", Dataset::read_f64)?;
+        let (rows, _) = numbers.as_chunks();
+        Ok(rows.iter().take_while(|row: &&[f64; COLUMNS.len()]| row[0] <= last as f64).copied().collect())
+    }
+
     /// Some numbers of a dataset, from one on.
-    fn rows<T>(
+    fn numbers<T>(
         &self,
         name: &str,
         [start, count]: [u64; 2],

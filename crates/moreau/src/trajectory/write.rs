@@ -1,6 +1,7 @@
 //! Writing a trajectory.
 
-use super::{Batch, FORMAT, PAIRS, Precision, REALS, TrajectoryError, VERSION, widths};
+use super::{Batch, FORMAT, PAIRS, Precision, REALS, Trajectory, TrajectoryError, VERSION, widths};
+use crate::io::whole;
 use crate::observe::COLUMNS;
 use hdf5_pure::{AttrValue, DatasetBuilder, Error, File, FileAccessProperties, FileBuilder, H5Element, MaxExtent, SyncPolicy};
 use std::path::{Path, PathBuf};
@@ -63,6 +64,41 @@ impl TrajectoryWriter {
         Ok(Self { path: path.to_owned(), file, precision, contacts: 0, single: Vec::new() })
     }
 
+    /// Goes on with the file of a run that was stopped, with frames and rows up to step `last`. They are copied into a new file that takes the
+    /// place of the old one: a file that was being written when its run was killed is fit for reading only.
+    ///
+    /// # Errors
+    /// Where it cannot be read or written, or lacks something up to that step; it is then as it was.
+    pub fn resume(path: &Path, (every, precision): (u64, Precision), last: u64) -> Result<Self, TrajectoryError> {
+        let old = Trajectory::open(path)?;
+        let rows = old.rows_until(last)?;
+        let frames = old.steps().partition_point(|&step| step <= last);
+        let due = last.checked_rem(old.header().every).map(|since| last - since);
+        if rows.last().is_none_or(|row| row[0] != last as f64) || old.steps()[..frames].last().copied() != due {
+            return Err(TrajectoryError::new(
+                path,
+                format!("it lacks records or frames up to step {last}; move it away, and the run begins it anew from here"),
+            ));
+        }
+        let wrong = |error: &dyn std::fmt::Display| TrajectoryError::new(path, error);
+        let beside = whole::beside(path).map_err(|error| wrong(&error))?.into_temp_path();
+        let mut new = Self::create(&beside, &Header { every, ..old.header().clone() }, precision)?;
+        let mut batch = Batch { rows, ..Batch::default() };
+        for i in 0..frames {
+            batch.push(old.frame(i)?);
+            if batch.len() >= CHUNK << 4 {
+                new.append(&batch)?;
+                batch.clear();
+            }
+        }
+        new.append(&batch)?;
+        new.sync()?;
+        drop(old);
+        beside.persist(path).map_err(|refused| wrong(&refused.error))?;
+        path.clone_into(&mut new.path);
+        Ok(new)
+    }
+
     /// Appends frames and rows; the numbers of steps last, by which readers know which frames are whole.
     ///
     /// # Errors
@@ -99,6 +135,14 @@ impl TrajectoryWriter {
         grow(file, "frames/step", &batch.step)
     }
 
+    /// Brings what was appended to the disk.
+    ///
+    /// # Errors
+    /// Where the system refuses.
+    pub fn sync(&self) -> Result<(), TrajectoryError> {
+        self.file.sync().map_err(|error| TrajectoryError::new(&self.path, error))
+    }
+
     /// Completes the file.
     ///
     /// # Errors
@@ -123,10 +167,10 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
     file.set_attr("every", AttrValue::U64(header.every));
     file.set_attr("columns", AttrValue::String(COLUMNS.join(",")));
     let mut bodies = file.create_group("bodies");
-    bodies.create_dataset("radius").with_f64_data(&header.radius);
-    bodies.create_dataset("mass").with_f64_data(&header.mass);
-    bodies.create_dataset("material").with_u16_data(&header.material);
-    bodies.create_dataset("free").with_u8_data(&header.free.iter().map(|&free| u8::from(free)).collect::<Vec<_>>());
+    fixed(bodies.create_dataset("radius"), &header.radius);
+    fixed(bodies.create_dataset("mass"), &header.mass);
+    fixed(bodies.create_dataset("material"), &header.material);
+    fixed(bodies.create_dataset("free"), &header.free.iter().map(|&free| u8::from(free)).collect::<Vec<_>>());
     file.add_group(bodies.finish());
     let count = header.radius.len();
     let mut frames = file.create_group("frames");
@@ -154,7 +198,15 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
     file
 }
 
-/// A dataset that is appended to.
+/// A dataset that stays as it is, with a checksum.
+fn fixed<T: H5Element>(dataset: &mut DatasetBuilder, values: &[T]) {
+    let dataset = dataset.with_data(values);
+    if !values.is_empty() {
+        dataset.with_chunks(&[values.len().min(CHUNK << 6) as u64]).with_fletcher32();
+    }
+}
+
+/// A dataset that is appended to. What is compressed has a checksum.
 fn growing<T: H5Element>(dataset: &mut DatasetBuilder, none: &[T], chunk: usize) {
     let dataset = dataset.with_data(none).with_shape(&[0]).with_maxshape(&[MaxExtent::Unlimited]);
     dataset.with_chunks(&[chunk as u64]).with_shuffle().with_deflate(LEVEL);

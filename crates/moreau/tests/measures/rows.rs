@@ -3,7 +3,7 @@
 use super::*;
 use moreau::measure::{extent, mean_stress, solid_fraction, stress_in};
 use moreau::observe::{MeasuresCsv, Observer};
-use moreau::run::run;
+use moreau::run::{Task, run};
 use std::sync::atomic::AtomicBool;
 
 #[test]
@@ -14,7 +14,7 @@ fn a_row_comes_as_often_as_asked_and_says_what_the_functions_say() {
     let path = folder.path().join("measures.csv");
     let mut work = Workspace::default();
     let mut observers: Vec<Box<dyn Observer<Plane, 2, 3>>> = vec![Box::new(MeasuresCsv::create(&path, 2, 2).unwrap())];
-    run(&mut world, &mut work, 6, &mut observers, &AtomicBool::new(false), |_| {}).unwrap();
+    run(&mut world, &mut work, Task::new(6), &mut observers, &AtomicBool::new(false), |_| {}).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     let (header, rows) = text.split_once('\n').unwrap();
     let stress = "stress_xx,stress_xy,stress_yx,stress_yy,pressure";

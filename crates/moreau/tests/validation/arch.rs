@@ -1,7 +1,7 @@
 //! 10. A semicircular arch of equal stones with radial joints.
 
 use super::{close, scene};
-use moreau::run::{End, run};
+use moreau::run::{End, Task, run};
 use moreau::scene::AnyWorld;
 use moreau::space::Space;
 use moreau::step::Workspace;
@@ -18,7 +18,7 @@ fn arch(file: &str, n: usize, thickness: f64) -> AnyWorld {
 fn stands_for<S: Space<D, N>, const D: usize, const N: usize>(mut world: World<S, D, N>, steps: u64) -> bool {
     let height = |world: &World<S, D, N>| world.bodies.pose.iter().map(|pose| pose.position[D - 1]).collect::<Vec<_>>();
     let start = height(&world);
-    let outcome = run(&mut world, &mut Workspace::default(), steps, &mut [], &AtomicBool::new(false), |_| {}).unwrap();
+    let outcome = run(&mut world, &mut Workspace::default(), Task::new(steps), &mut [], &AtomicBool::new(false), |_| {}).unwrap();
     assert!(outcome.end == End::Done, "{:?}", outcome.end);
     let sunk = height(&world).iter().zip(start).map(|(z, before)| (before - z).abs()).fold(0.0, f64::max);
     sunk < 1e-7

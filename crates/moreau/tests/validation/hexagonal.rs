@@ -1,6 +1,6 @@
 //! 12. A hexagonal packing of disks between two stresses.
 
-use moreau::run::{End, run};
+use moreau::run::{End, Task, run};
 use moreau::scene::{AnyWorld, Scene};
 use moreau::step::Workspace;
 use std::fmt::Write;
@@ -55,7 +55,9 @@ fn moved(ratio: f64) -> f64 {
         panic!("of the plane")
     };
     let start: Vec<[f64; 2]> = world.bodies.pose.iter().map(|pose| pose.position).collect();
-    let outcome = run(&mut world, &mut Workspace::default(), scene.time.steps, &mut [], &AtomicBool::new(false), |_| {}).unwrap();
+    let outcome =
+        run(&mut world, &mut Workspace::default(), Task::new(scene.time.steps), &mut [], &AtomicBool::new(false), |_| {})
+            .unwrap();
     assert!(outcome.end == End::Done && outcome.summary.unconverged() == 0, "{:?}", outcome.end);
     let way = |(pose, from): (&moreau::space::Pose<[f64; 2], 2>, [f64; 2])| {
         (pose.position[0] - from[0]).hypot(pose.position[1] - from[1])

@@ -15,6 +15,14 @@ pub enum VtkError {
         /// What the system said.
         source: io::Error,
     },
+    /// A collection to go on with that cannot be read.
+    #[error("cannot go on with {}: {source}; move the folder away, and the run begins it anew from here", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
     /// An array does not have one tuple for each point or cell.
     #[error(
         "cannot write {}: {place} array `{array}` has {found} numbers, but {count} tuples of {components} were expected",

@@ -9,6 +9,9 @@ use std::time::{Duration, Instant};
 /// How often collections are saved while frames come: each save costs as much as a frame of some hundred bodies.
 const SAVED_EVERY: Duration = Duration::from_secs(1);
 
+/// The kinds of files.
+const NAMES: [&str; 4] = ["bodies", "contacts", "shapes", "interfaces"];
+
 /// All of them.
 #[derive(Debug)]
 pub(super) struct Files {
@@ -22,9 +25,14 @@ pub(super) struct Files {
 impl Files {
     /// Those of `folder`.
     pub(super) fn new(folder: &Path) -> Self {
-        let [bodies, contacts, shapes, interfaces] =
-            ["bodies", "contacts", "shapes", "interfaces"].map(|name| Kind::new(folder, name));
+        let [bodies, contacts, shapes, interfaces] = NAMES.map(|name| Kind::new(folder, name));
         Self { bodies, contacts, shapes, interfaces, saved: None }
+    }
+
+    /// Those of `folder` that are there, without frames after step `last`.
+    pub(super) fn resume(folder: &Path, last: u64) -> Result<Self, OutputError> {
+        let [bodies, contacts, shapes, interfaces] = NAMES.map(|name| Kind::resume(folder, name, last));
+        Ok(Self { bodies: bodies?, contacts: contacts?, shapes: shapes?, interfaces: interfaces?, saved: None })
     }
 }
 
@@ -67,6 +75,22 @@ impl Kind {
     fn new(folder: &Path, name: &'static str) -> Self {
         let series = Series::new(folder.join(name).with_extension("pvd"));
         Self { folder: folder.to_owned(), name, writer: Writer::default(), series, saved: 0 }
+    }
+
+    fn resume(folder: &Path, name: &'static str, last: u64) -> Result<Self, OutputError> {
+        let mut kind = Self::new(folder, name);
+        let step = |file: &str| file.strip_prefix(name)?.strip_prefix('_')?.strip_suffix(".vtp")?.parse::<u64>().ok();
+        kind.series.load(|file| step(file).is_some_and(|step| step <= last))?;
+        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+            if entry.file_name().to_str().and_then(step).is_some_and(|step| step > last) {
+                std::fs::remove_file(entry.path()).map_err(OutputError::io(&entry.path()))?;
+            }
+        }
+        if kind.series.path().exists() {
+            kind.series.save()?;
+        }
+        kind.saved = kind.series.len();
+        Ok(kind)
     }
 
     fn write(&mut self, step: u64, data: &PolyData) -> Result<(), OutputError> {

@@ -6,7 +6,7 @@ use super::{Frame, Observer, OutputError, VtkOutput};
 use crate::bodies::Motion;
 use crate::observe::StepsCsv;
 use crate::observe::background::Writer;
-use crate::run::{End, run};
+use crate::run::{End, Task, run};
 use crate::scene::{AnyWorld, Scene};
 use crate::space::Solid;
 use crate::step::Workspace;
@@ -87,7 +87,8 @@ fn files_are_those_of_a_run_that_waits_for_them() {
         let (behind, direct) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let mut observers: [Box<dyn Observer<Solid, 3, 6>>; 2] =
             [Box::new(VtkOutput::create(behind.path(), 1).unwrap()), Box::new(Direct(Files::new(direct.path())))];
-        run(&mut built(&text), &mut Workspace::default(), 30, &mut observers, &AtomicBool::new(false), |_| {}).unwrap();
+        run(&mut built(&text), &mut Workspace::default(), Task::new(30), &mut observers, &AtomicBool::new(false), |_| {})
+            .unwrap();
         // Without a drop: all must be there when the run is over.
         let (behind, direct) = (all(behind.path()), all(direct.path()));
         assert_eq!(behind.len(), kinds * 31 + kinds);
@@ -156,7 +157,7 @@ fn a_folder_that_is_lost_ends_the_run_and_leaves_the_other_files_complete() {
         ];
         let (mut world, stop) = (world(), AtomicBool::new(false));
         let slow = |_: &_| std::thread::sleep(Duration::from_millis(1));
-        let unwritten = run(&mut world, &mut Workspace::default(), 100_000, &mut observers, &stop, slow).unwrap_err();
+        let unwritten = run(&mut world, &mut Workspace::default(), Task::new(100_000), &mut observers, &stop, slow).unwrap_err();
         let steps = unwritten.outcome.summary.steps();
         assert!(unwritten.outcome.end == End::Unwritten && (9..100_000).contains(&steps), "{steps} steps");
         assert!(unwritten.to_string().starts_with(&format!("cannot write {}", vtk.display())), "{unwritten}");
@@ -170,7 +171,7 @@ fn a_last_frame_that_cannot_be_written_is_told_at_the_end() {
     fs::create_dir(folder.path().join("contacts_00000003.vtp")).unwrap();
     let mut observers: [Box<dyn Observer<Solid, 3, 6>>; 1] = [Box::new(VtkOutput::create(folder.path(), 1).unwrap())];
     let stop = AtomicBool::new(false);
-    let unwritten = run(&mut world(), &mut Workspace::default(), 3, &mut observers, &stop, |_| {}).unwrap_err();
+    let unwritten = run(&mut world(), &mut Workspace::default(), Task::new(3), &mut observers, &stop, |_| {}).unwrap_err();
     assert!(unwritten.outcome.end == End::Unwritten && unwritten.outcome.summary.steps() == 3);
     assert!(unwritten.to_string().contains("contacts_00000003.vtp"), "{unwritten}");
     // The collections name what is there, and nothing else.

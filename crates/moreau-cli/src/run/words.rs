@@ -1,0 +1,67 @@
+//! What is said of a run at its end.
+
+use crate::failure::Failure;
+use moreau::checkpoint;
+use moreau::run::{End, Outcome};
+use moreau::step::FAILED_KEPT;
+use moreau::world::StepSettings;
+use std::path::Path;
+
+/// A few lines for a person.
+pub(super) fn describe(outcome: &Outcome, bodies: usize, settings: &StepSettings, folder: &Path) -> String {
+    let summary = &outcome.summary;
+    let unconverged = match summary.unconverged() {
+        0 => "every step converged".to_owned(),
+        count => format!("{count} steps did NOT converge"),
+    };
+    format!(
+        "{} steps, {bodies} bodies, {} inside {}: {:.1} sweeps a step, {unconverged}\n\
+         {:.2} s in all, {:.2} s for contact impulses, {:.2} s for files\n\
+         {}results in {}\n",
+        summary.steps(),
+        settings.solver.local.name(),
+        settings.solver.global.name(),
+        summary.sweeps_mean(),
+        summary.seconds_total(),
+        summary.seconds_solve(),
+        summary.seconds_output(),
+        failed_problems(outcome, folder),
+        folder.display(),
+    )
+}
+
+/// Where the problems of failed solves are, under the policy `dump`.
+fn failed_problems(outcome: &Outcome, folder: &Path) -> String {
+    let summary = &outcome.summary;
+    let mut text = String::new();
+    if let [first, ..] = summary.failed_problems() {
+        let count = summary.failed_problems().len();
+        let more =
+            if summary.unconverged() > FAILED_KEPT { format!(", of the first {FAILED_KEPT} that failed") } else { String::new() };
+        text += &format!(
+            "problems of {count} failed solves{more}; solve again with: moreau solve {}\n",
+            folder.join(first).display()
+        );
+    }
+    if let Some(reason) = summary.refused_problem() {
+        text += &format!("no problem file could be made of {reason}\n");
+    }
+    text
+}
+
+pub(super) fn kept(outcome: &Outcome, folder: &Path) -> String {
+    let kept = format!("the {} steps before are kept in {}", outcome.summary.steps(), folder.display());
+    match checkpoint::last_step(folder) {
+        Some(step) => format!("{kept}; to go on from step {step}: moreau run --resume {}", folder.display()),
+        None => kept,
+    }
+}
+
+pub(super) fn verdict(outcome: &Outcome, folder: &Path) -> Result<(), Failure> {
+    let kept = kept(outcome, folder);
+    match &outcome.end {
+        End::Done | End::Unwritten => Ok(()),
+        End::Interrupted => Err(Failure::interrupted(kept)),
+        End::Failed(error) => Err(Failure::computation(format!("{error}; {kept}"))),
+    }
+}

@@ -1,0 +1,66 @@
+//! Files that appear whole or not at all: they are written beside their place and renamed.
+
+use std::fs::File;
+use std::io::{self, Write as _};
+use std::path::Path;
+use tempfile::NamedTempFile;
+
+/// How names of files begin that have not got their own yet.
+const PREFIX: &str = ".moreau-";
+
+/// Takes out of a folder what programs that were killed left half written.
+pub fn sweep(folder: &Path) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.file_name().to_string_lossy().starts_with(PREFIX) {
+            // What cannot be removed does no harm.
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// The folder of a file.
+fn folder(path: &Path) -> &Path {
+    // A bare file name has the empty path as its parent, which no system call understands.
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A new file beside `path` that is to take its name; it is gone when it is dropped before.
+///
+/// # Errors
+/// Where the folder is missing, read-only or full.
+pub fn beside(path: &Path) -> io::Result<NamedTempFile> {
+    // An ending of its own kind: programs that write by name look at it.
+    let ending = path.extension().map_or_else(String::new, |ending| format!(".{}", ending.to_string_lossy()));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(&ending);
+    // Temporary files are private by default; a result is as readable as any other file under the user's umask.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder(path))
+}
+
+/// Writes `parts` one after the other. The disk is not asked to sync: after the fall of the machine the file may be missing or empty.
+///
+/// # Errors
+/// Where the system refuses; nothing has changed then.
+pub fn write(path: &Path, parts: &[&[u8]]) -> io::Result<()> {
+    filled(path, parts)?.persist(path).map(drop).map_err(|refused| refused.error)
+}
+
+/// As [`write`], and when this returns the file is on the disk, under its name.
+///
+/// # Errors
+/// As there.
+pub fn write_to_disk(path: &Path, parts: &[&[u8]]) -> io::Result<()> {
+    let file = filled(path, parts)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|refused| refused.error)?;
+    // The name is the folder's; not every system opens folders.
+    if cfg!(unix) { File::open(folder(path))?.sync_all() } else { Ok(()) }
+}
+
+fn filled(path: &Path, parts: &[&[u8]]) -> io::Result<NamedTempFile> {
+    let mut file = beside(path)?;
+    parts.iter().try_for_each(|part| file.write_all(part))?;
+    Ok(file)
+}
