@@ -98,7 +98,7 @@ fn chart(run: &Recording, what: What) -> Chart {
         }
         What::Penetration => semilog("Deepest overlap", time, "overlap (m)", &curves(run, &[("penetration", "overlap")])),
         What::Energy => {
-            let parts = [("kinetic", "kinetic"), ("potential", "potential"), ("work", "work"), ("dissipated", "dissipated")];
+            let parts = ["kinetic", "potential", "work", "dissipated", "impact", "friction"].map(|name| (name, name));
             linear("Energy", time, "energy (J)", &from_start(curves(run, &parts)))
         }
         What::Balance => linear("Balance of energy", time, "error (J)", &curves(run, &[("balance_error", "error")])),

@@ -1,5 +1,6 @@
 //! `moreau run`.
 
+mod convergence;
 mod folder;
 mod resume;
 mod words;
@@ -42,6 +43,10 @@ pub(crate) struct Args {
     /// How many threads may be used; default one a core. The results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Run the scene at its step, at half of it and at a quarter (or so many halves), and print by what order the ends approach each other;
+    /// writes convergence.csv
+    #[arg(long, value_name = "HALVES", num_args = 0..=1, default_missing_value = "2", value_parser = clap::value_parser!(u32).range(1..=20), conflicts_with_all = ["resume", "view"])]
+    convergence: Option<u32>,
     /// Show the run while it goes on, as a page on this machine that can pause, step and stop it; afterwards until Ctrl-C
     #[arg(long)]
     view: bool,
@@ -67,10 +72,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
         (None, None) => return Err(Failure::usage("there is neither a scene to run nor a run to go on with")),
     };
+    if let Some(halvings) = args.convergence {
+        return convergence::run(&scene, halvings, threads(args), args.quiet, &folder);
+    }
     match scene::build(&scene)? {
         AnyWorld::Plane(world) => begin(args, &scene, world, &folder, from.as_ref()),
         AnyWorld::Solid(world) => begin(args, &scene, world, &folder, from.as_ref()),
     }
+}
+
+/// How many threads are asked for.
+fn threads(args: &Args) -> usize {
+    args.threads.map_or_else(scene::cores, usize::from)
 }
 
 /// A run that is ready to go on: from the start, or from a checkpoint.
@@ -145,7 +158,7 @@ fn compute<S: Space<D, N>, const D: usize, const N: usize>(
     let task = Task { steps, before, kept: Some((&text, checkpoints)) };
     let bar = progress::bar(scene.time.steps, args.quiet);
     bar.set_position(first);
-    let pool = scene::pool(args.threads.map_or_else(scene::cores, usize::from))?;
+    let pool = scene::pool(threads(args))?;
     let result = pool.install(|| {
         moreau::run::run(&mut world, &mut work, task, &mut observers, stop, |record| {
             if !bar.is_hidden() {

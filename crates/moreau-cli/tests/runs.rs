@@ -7,7 +7,7 @@ use serde_json::Value;
 
 /// The columns of steps.csv, in order.
 const COLUMNS: &str = "step,time,bodies,contacts,active,sweeps,converged,eps_motion,eps_bipotential,eps_penetration,eps_glob,\
-    scaled_residual,penetration,kinetic,potential,work,dissipated,balance_error,\
+    scaled_residual,penetration,kinetic,potential,work,dissipated,impact,friction,balance_error,\
     seconds_detect,seconds_localise,seconds_solve,seconds_step";
 
 fn ten() -> Place {
@@ -28,7 +28,7 @@ fn column(place: &Place, name: &str) -> Vec<f64> {
 fn the_summary_has_the_documented_keys() {
     let summary = ten().summary("out/ten");
     let keys = "steps bodies contacts_last contacts_mean sweeps_mean sweeps_max unconverged_steps eps_glob_max penetration_max \
-        energy.kinetic energy.potential energy.work energy.dissipated energy.balance_error \
+        energy.kinetic energy.potential energy.work energy.dissipated energy.impact energy.friction energy.balance_error \
         seconds.total seconds.detect seconds.localise seconds.solve seconds.output threads solver.tolerance";
     for key in keys.split_whitespace() {
         let value = key.split('.').fold(&summary, |value, part| &value[part]);
@@ -57,7 +57,7 @@ fn the_summary_sums_up_the_steps() {
     for (key, name) in [("sweeps_max", "sweeps"), ("eps_glob_max", "eps_glob"), ("penetration_max", "penetration")] {
         assert!(same(&summary[key], column(&place, name).into_iter().fold(0.0, f64::max)), "{key}");
     }
-    for name in ["kinetic", "potential", "work", "dissipated", "balance_error"] {
+    for name in ["kinetic", "potential", "work", "dissipated", "impact", "friction", "balance_error"] {
         assert!(same(&summary["energy"][name], column(&place, name)[19]), "{name}");
     }
     let unconverged = column(&place, "converged").iter().filter(|&&converged| converged == 0.0).count();
@@ -73,7 +73,7 @@ fn steps_csv_has_a_row_a_step() {
     assert!(text.lines().count() == 21 && text.ends_with('\n'));
     for (i, row) in text.lines().skip(1).enumerate() {
         let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap_or_else(|_| panic!("`{cell}` in {row}"))).collect();
-        assert_eq!(cells.len(), 22, "{row}");
+        assert_eq!(cells.len(), 24, "{row}");
         assert!(cells.iter().all(|cell| cell.is_finite()), "{row}");
         assert!(cells[0] == (i + 1) as f64 && (cells[1] - 1e-3 * cells[0]).abs() < 1e-12 && cells[2] == 15.0, "{row}");
     }

@@ -29,7 +29,8 @@ function stepCharts(line, tolerance) {
         { title: "Penetration", unit: "m", series: [line("", "penetration", 5)] },
         {
             title: "Energy", unit: "J",
-            series: [line("kinetic", "kinetic", 0), line("potential", "potential", 2), line("work", "work", 3), line("dissipated", "dissipated", 1)],
+            series: [line("kinetic", "kinetic", 0), line("potential", "potential", 2), line("work", "work", 3), line("dissipated", "dissipated", 1),
+                line("by impacts", "impact", 4), line("by friction", "friction", 5)],
         },
         { title: "Balance error", unit: "J", series: [line("", "balance_error", 5)] },
         { title: "Contacts", series: [line("all", "contacts", 0), line("with impulse", "active", 1)] },

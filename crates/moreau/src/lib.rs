@@ -7,6 +7,7 @@ pub mod bodies;
 pub mod checkpoint;
 pub mod compare;
 pub mod contacts;
+pub mod convergence;
 pub mod detect;
 pub mod drive;
 pub mod events;

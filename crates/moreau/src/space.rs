@@ -97,3 +97,13 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
 fn is_unit(numbers: &[f64]) -> bool {
     (numbers.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-6
 }
+
+/// ω × arm.
+#[inline]
+pub(crate) fn swept<const D: usize>(spin: &[f64; 3], arm: &[f64; D]) -> [f64; D] {
+    let arm: [f64; 3] = std::array::from_fn(|k| if k < D { arm[k] } else { 0.0 });
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        spin[i] * arm[j] - spin[j] * arm[i]
+    })
+}

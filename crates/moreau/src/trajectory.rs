@@ -36,8 +36,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// The version of the layout.
-const VERSION: i64 = 1;
+/// The version of the layout and of the columns of records.
+const VERSION: i64 = 2;
 
 /// What the attribute `format` says.
 const FORMAT: &str = "moreau trajectory";

@@ -131,7 +131,7 @@ export class Synthetic {
             eps_motion: column(() => 1e-15 * noise()), eps_bipotential: column((t) => 4e-8 * noise() * (0.2 + t)),
             eps_penetration: column((t) => (t < 0.1 ? null : 2e-8 * noise())), scaled_residual: column(() => 6e-8 * noise()),
             penetration: column((t) => 1e-6 * t * noise()), kinetic: column((t) => 2 * t * (1 - t) ** 2), potential: column((t) => 1 - 0.8 * t),
-            work: column(() => 0), dissipated: column((t) => 0.8 * t - 2 * t * (1 - t) ** 2), balance_error: column((t) => 1e-6 * t * noise()),
+            work: column(() => 0), dissipated: column((t) => 0.8 * t - 2 * t * (1 - t) ** 2), impact: column((t) => 0.3 * t), friction: column((t) => 0.4 * t), balance_error: column((t) => 1e-6 * t * noise()),
             seconds_detect: column(() => 2e-4 * noise()), seconds_localise: column(() => 5e-5 * noise()),
             seconds_solve: column((t) => 1e-3 * (0.2 + t) * noise()), seconds_step: column((t) => 1.2e-3 * (0.3 + t) * noise()),
         };

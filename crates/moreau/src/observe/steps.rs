@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 22] = [
+pub const COLUMNS: [&str; 24] = [
     "step",
     "time",
     "bodies",
@@ -27,6 +27,8 @@ pub const COLUMNS: [&str; 22] = [
     "potential",
     "work",
     "dissipated",
+    "impact",
+    "friction",
     "balance_error",
     "seconds_detect",
     "seconds_localise",
@@ -37,7 +39,7 @@ pub const COLUMNS: [&str; 22] = [
 /// How many of the first columns are whole numbers, but for the time.
 const WHOLE: usize = 7;
 /// Where the seconds begin, of which few digits mean something.
-const SECONDS: usize = 18;
+const SECONDS: usize = 20;
 
 /// The numbers of a row; whole numbers are below 2^53.
 pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
@@ -60,6 +62,8 @@ pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
         energy.potential,
         energy.work,
         energy.dissipated,
+        energy.impact,
+        energy.friction,
         energy.balance_error,
         seconds.detect,
         seconds.localise,

@@ -124,6 +124,8 @@ impl Summary {
                 "potential": energy.potential,
                 "work": energy.work,
                 "dissipated": energy.dissipated,
+                "impact": energy.impact,
+                "friction": energy.friction,
                 "balance_error": energy.balance_error,
                 "balance_error_max": self.balance_error_max,
             },

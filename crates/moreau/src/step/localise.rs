@@ -4,7 +4,7 @@ use super::workspace::Localised;
 use crate::bodies::Bodies;
 use crate::contacts::Contact;
 use crate::shape::Shape;
-use crate::space::{Pose, Space};
+use crate::space::{Pose, Space, swept};
 use crate::world::World;
 use moreau_solve::block::dot;
 use moreau_solve::law::Approach;
@@ -96,16 +96,6 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
 fn in_frame<const D: usize, const TURNS: bool>(frame: &[[f64; D]; D], a: &[f64; D], b: &[f64; D]) -> [f64; D] {
     let relative = std::array::from_fn(|k| b[k] - a[k]);
     std::array::from_fn(|i| if TURNS || i == 0 { dot(&frame[i], &relative) } else { 0.0 })
-}
-
-/// ω × arm.
-#[inline]
-fn swept<const D: usize>(spin: &[f64; 3], arm: &[f64; D]) -> [f64; D] {
-    let arm: [f64; 3] = std::array::from_fn(|k| if k < D { arm[k] } else { 0.0 });
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        spin[i] * arm[j] - spin[j] * arm[i]
-    })
 }
 
 /// A gap below this part of the smaller body counts as closed: the rounding of positions must not open a contact for a step, in

@@ -21,6 +21,10 @@ pub struct Energy {
     pub work: f64,
     /// Lost in contacts and joints, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round.
     pub dissipated: f64,
+    /// Of this, by the normal impulses of contacts: impacts.
+    pub impact: f64,
+    /// And by their tangential impulses: friction. What is left of `dissipated` is the scheme's and that of joints.
+    pub friction: f64,
     /// kinetic + potential − work + dissipated, less its value at the start: rounding, if all is well.
     pub balance_error: f64,
 }
@@ -83,6 +87,8 @@ pub(super) struct Ledger {
     start: Option<f64>,
     work: f64,
     dissipated: f64,
+    impact: f64,
+    friction: f64,
 }
 
 /// Kinetic and potential energy of the free bodies.
@@ -135,12 +141,14 @@ impl Ledger {
         let of_contact = |c: usize| {
             let c = &contacts[c];
             let mean: [f64; D] = std::array::from_fn(|i| 0.5 * (c.before[i] + c.after[i]));
-            [-dot(&c.impulse, &c.driven), -dot(&c.impulse, &mean)]
+            [-dot(&c.impulse, &c.driven), -c.impulse[0] * mean[0], -(1..D).map(|i| c.impulse[i] * mean[i]).sum::<f64>()]
         };
         let bodies = tasks::sums(0..bodies.len(), &|i| if bodies.is_free(i) { of_body(i) } else { [0.0; 2] });
         let contacts = tasks::sums(0..contacts.len(), &of_contact);
         self.work += bodies[0] + contacts[0];
-        self.dissipated += bodies[1] + contacts[1];
+        self.impact += contacts[1];
+        self.friction += contacts[2];
+        self.dissipated += bodies[1] + (contacts[1] + contacts[2]);
     }
 
     /// Books what joints do, as contacts do.
@@ -165,6 +173,7 @@ impl Ledger {
     /// The ledger when the energies are these.
     pub(super) fn energy(&self, (kinetic, potential): (f64, f64)) -> Energy {
         let balance_error = kinetic + potential - self.start.unwrap_or(0.0) - self.work + self.dissipated;
-        Energy { kinetic, potential, work: self.work, dissipated: self.dissipated, balance_error }
+        let Self { work, dissipated, impact, friction, .. } = *self;
+        Energy { kinetic, potential, work, dissipated, impact, friction, balance_error }
     }
 }

@@ -3,6 +3,7 @@
 mod arch;
 mod blocks;
 mod chain;
+mod convergence;
 mod cylinders;
 mod hexagonal;
 mod impacts;
