@@ -6,7 +6,7 @@
 //! | 1 | something could not be read or written |
 //! | 2 | wrong words on the command line (from the parser) |
 //! | 3 | the scene or the problem in a file is wrong |
-//! | 4 | the computation failed: a solve of `moreau solve` or under the policy `stop` did not converge, or a number ceased to be finite |
+//! | 4 | the computation failed: a solve of `moreau solve` or under the policy `stop` did not converge, a step broke a limit under that policy, or a number ceased to be finite |
 //! | 5 | solvers that should agree do not |
 //! | 130 | interrupted by Ctrl-C, SIGTERM or SIGHUP; what was computed is kept. By a second signal: ended at once; the last checkpoint is kept |
 

@@ -193,5 +193,5 @@ fn compute<S: Space<D, N>, const D: usize, const N: usize>(
         }
         say(&describe(&outcome, bodies, &settings, folder))?;
     }
-    verdict(&outcome, folder)
+    verdict(&outcome, scene, folder)
 }

@@ -149,3 +149,25 @@ fn what_cannot_be_gone_on_with_is_refused() {
     assert!(ran.err.contains("note: began it anew from here: other/steps.csv is not there any more"), "{}", ran.err);
     assert!(place.read("other/steps.csv").lines().nth(1).unwrap().starts_with("4001,"));
 }
+
+#[test]
+fn a_step_that_breaks_a_limit_is_named_and_can_be_done_otherwise() {
+    let place = Place::with("ten.toml", TEN);
+    let run = |out: &str, more: &[&str]| {
+        let words = ["run", "ten.toml", "--quiet", "--out", out, "--set", "time.step=2e-3", "--set", "guard.penetration=0.02"];
+        place.moreau(&[&words[..], &["--set", "checkpoint.every=1"], more].concat())
+    };
+    let warned = run("warned", &[]);
+    assert_eq!(warned.code, Some(0), "{}", warned.err);
+    assert!(warned.err.contains("steps broke a limit of [guard]; the first: step "), "{}", warned.err);
+    let summary = place.summary("warned");
+    assert!(summary["breaches"].as_u64().unwrap() > 0 && summary["first_breach"].as_str().unwrap().contains("overlap by"));
+    let stopped = run("stopped", &["--set", "guard.policy=stop"]);
+    stopped.fails(
+        4,
+        &["in the step to t = ", "bodies ", " overlap by ", " is ", "problems of 1 failed solves", "moreau run --resume stopped"],
+    );
+    assert!(place.all("stopped").keys().any(|name| name.starts_with("failed-step-")), "its problem");
+    let again = place.moreau(&["run", "--resume", "stopped", "--quiet", "--set", "guard.penetration=0.5"]);
+    assert_eq!((again.code, again.err.as_str()), (Some(0), ""));
+}

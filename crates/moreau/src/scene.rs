@@ -55,7 +55,8 @@ pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Ra
 pub use joints::{JointKindSpec, JointSpec};
 pub use shape::{PartSpec, ShapeSpec};
 pub use spec::{
-    BodySpec, CheckpointSpec, Container, Face, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver, StartSpec, Time,
+    BodySpec, CheckpointSpec, Container, Face, GuardSpec, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver,
+    StartSpec, Time,
 };
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 
@@ -121,6 +122,9 @@ pub struct Scene {
     /// Where free bodies leave it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sinks: Vec<SinkSpec>,
+    /// Limits that each step must keep to.
+    #[serde(default)]
+    pub guard: GuardSpec,
     /// What a run writes.
     #[serde(default)]
     pub output: Output,

@@ -4,6 +4,7 @@ mod closing;
 mod correct;
 mod failed;
 mod forces;
+mod guard;
 mod integrate;
 mod joints;
 mod localise;
@@ -14,6 +15,7 @@ mod system;
 mod workspace;
 
 pub use failed::{FAILED_KEPT, FailedSolve};
+pub use guard::Breach;
 pub use joints::Reaction;
 pub use moreau_jean::step;
 pub(crate) use moreau_jean::step_in;
@@ -58,4 +60,23 @@ pub enum StepError {
         /// Time, s.
         time: f64,
     },
+    /// A step broke a limit of [`Guard`](crate::world::Guard), and the policy is to stop or halving did not help.
+    #[error("in the step to t = {time} s {breach}")]
+    Breach {
+        /// Time at the end of the step, s.
+        time: f64,
+        /// How.
+        breach: Breach,
+    },
+}
+
+impl StepError {
+    /// The indices of the bodies that it speaks of.
+    pub fn bodies(&self) -> Vec<usize> {
+        match self {
+            Self::NotFinite { body, .. } | Self::Breach { breach: Breach::Domain { body, .. }, .. } => vec![*body],
+            Self::Breach { breach: Breach::Penetration { bodies, .. }, .. } => bodies.to_vec(),
+            _ => Vec::new(),
+        }
+    }
 }

@@ -30,8 +30,43 @@ pub enum OnFailure {
     /// Take the step all the same, count it, and write its problem to failed-step-N.hdf5 in the folder of the run, for
     /// `moreau solve`; of a run the first twenty.
     Dump,
-    /// Do the step again in two halves, and these in halves if need be, down to h/64.
+    /// Do the step again in two halves, if need be in four quarters, and so on down to h/64.
     Halve,
+}
+
+/// What to do when a step breaks a limit of [`Guard`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OnBreach {
+    /// Take the step all the same, and count it.
+    #[default]
+    Warn,
+    /// End the run, and write the contact problem of the step to failed-step-N.hdf5 in its folder.
+    Stop,
+    /// Do the step again in two halves, if need be in four quarters, and so on down to h/64; then end the run. The same where a velocity or
+    /// position ceases to be a number.
+    Halve,
+}
+
+/// Limits that each step must keep to; those that are not given are none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Guard<const D: usize> {
+    /// The lowest and the highest corner of the region in which centres of free bodies stay, m.
+    pub domain: Option<[[f64; D]; 2]>,
+    /// How deep bodies may overlap at the predicted configuration, as a part of the smaller one's bounding radius.
+    pub penetration: Option<f64>,
+    /// How much energy a step may create, J: by how much kinetic and potential energy may grow beyond the work done. Rounding and the
+    /// solver's tolerance create some.
+    pub energy: Option<f64>,
+    /// What to do when a step breaks one of them.
+    pub policy: OnBreach,
+}
+
+impl<const D: usize> Guard<D> {
+    /// Whether the problem of a step that breaks a limit is to be written.
+    pub fn dumps(&self) -> bool {
+        self.policy == OnBreach::Stop && (self.domain.is_some() || self.penetration.is_some() || self.energy.is_some())
+    }
 }
 
 /// How the world is advanced.
@@ -65,6 +100,8 @@ pub struct World<S: Space<D, N>, const D: usize, const N: usize> {
     pub gravity: [f64; D],
     /// What happens to bodies at given times, and what drives them.
     pub schedule: Schedule<S, D, N>,
+    /// Limits that each step must keep to.
+    pub guard: Guard<D>,
     /// How it is advanced.
     pub settings: StepSettings,
     /// Time, s.

@@ -89,7 +89,7 @@ pub(super) fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
         );
         observers.push(Box::new(trajectory.map_err(Failure::file)?));
     }
-    if scene.solver.on_failure == OnFailure::Dump {
+    if scene.solver.on_failure == OnFailure::Dump || world.guard.dumps() {
         observers.push(Box::new(FailedProblems::new(folder)));
     }
     Ok(observers)

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use moreau::checkpoint;
 use moreau::run::{End, Outcome};
+use moreau::scene::Scene;
 use moreau::step::FAILED_KEPT;
 use moreau::world::StepSettings;
 use std::path::Path;
@@ -57,11 +58,17 @@ pub(super) fn kept(outcome: &Outcome, folder: &Path) -> String {
     }
 }
 
-pub(super) fn verdict(outcome: &Outcome, folder: &Path) -> Result<(), Failure> {
+pub(super) fn verdict(outcome: &Outcome, scene: &Scene, folder: &Path) -> Result<(), Failure> {
+    if let (count @ 1.., Some(first)) = outcome.summary.breaches() {
+        Failure::computation(first).note(&format!("{count} steps broke a limit of [guard]; the first"));
+    }
     let kept = kept(outcome, folder);
     match &outcome.end {
         End::Done | End::Unwritten => Ok(()),
         End::Interrupted => Err(Failure::interrupted(kept)),
-        End::Failed(error) => Err(Failure::computation(format!("{error}; {kept}"))),
+        End::Failed(error) => {
+            let who: String = error.bodies().iter().map(|&i| format!("; body {i} is {}", scene.body_label(i))).collect();
+            Err(Failure::computation(format!("{error}{who}; {}{kept}", failed_problems(outcome, folder).replace('\n', "; "))))
+        }
     }
 }

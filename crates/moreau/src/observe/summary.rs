@@ -17,6 +17,8 @@ pub struct Summary {
     scaled_max: f64,
     penetration_max: f64,
     balance_error_max: f64,
+    breaches: u64,
+    first_breach: Option<String>,
     failed_problems: Vec<String>,
     refused_problem: Option<String>,
     detect: f64,
@@ -44,6 +46,10 @@ impl Summary {
         self.detect += record.seconds.detect;
         self.localise += record.seconds.localise;
         self.solve += record.seconds.solve;
+        if let Some(breach) = &record.breach {
+            self.breaches += 1;
+            self.first_breach.get_or_insert_with(|| format!("step {}, t = {} s: {breach}", record.step, record.time));
+        }
         (self.time, self.contacts_last, self.energy) = (record.time, record.contacts, record.energy);
     }
 
@@ -65,6 +71,11 @@ impl Summary {
     /// Why there is no file of the first failed solve of which there could be none.
     pub fn refused_problem(&self) -> Option<&str> {
         self.refused_problem.as_deref()
+    }
+
+    /// How many steps broke a limit of [`Guard`](crate::world::Guard), where that is only counted, and what is said of the first.
+    pub fn breaches(&self) -> (u64, Option<&str>) {
+        (self.breaches, self.first_breach.as_deref())
     }
 
     /// Steps done.
@@ -115,6 +126,8 @@ impl Summary {
             "sweeps_mean": self.sweeps_mean(),
             "sweeps_max": self.sweeps_max,
             "unconverged_steps": self.unconverged,
+            "breaches": self.breaches,
+            "first_breach": self.first_breach,
             "failed_problems": self.failed_problems,
             "eps_glob_max": self.eps_glob_max,
             "scaled_residual_max": self.scaled_max,

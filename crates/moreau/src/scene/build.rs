@@ -13,7 +13,7 @@ use crate::laws::Laws;
 use crate::random::Random;
 use crate::space::Pose;
 use crate::space::curve::Curve;
-use crate::world::{StepSettings, World};
+use crate::world::{Guard, StepSettings, World};
 
 /// Makes the world of a scene that passed the checks.
 pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: &Scene) -> Result<World<S, D, N>, Fault> {
@@ -51,7 +51,10 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
         solver: solver.settings(),
     };
     let (laws, gravity) = (laws(scene), vector(&scene.gravity));
-    let mut world = World { bodies, laws, joints, gravity, schedule, settings, time: 0.0, steps: 0 };
+    let spec = &scene.guard;
+    let domain = (!spec.min.is_empty()).then(|| [vector(&spec.min), vector(&spec.max)]);
+    let guard = Guard { domain, penetration: spec.penetration, energy: spec.energy, policy: spec.policy };
+    let mut world = World { bodies, laws, joints, gravity, schedule, guard, settings, time: 0.0, steps: 0 };
     // What begins at the start is seen at the start.
     world.act();
     Ok(world)

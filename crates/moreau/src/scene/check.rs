@@ -38,6 +38,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
         let hint = "expected a part of the smaller radius, from 0 to 1";
         return Err(Fault::new(key_path!["start", "max_overlap"], format!("max_overlap is {max_overlap}"), hint));
     }
+    guard(scene)?;
     output(&scene.output)?;
     checkpoint(&scene.checkpoint)?;
     bodies::check(scene)?;
@@ -101,6 +102,24 @@ fn output(output: &Output) -> Result<(), Fault> {
     twice.map_or(Ok(()), |i| {
         Err(Fault::new(key_path!["output", "kinds", i], "the same kind of output twice", "expected each kind at most once"))
     })
+}
+
+fn guard(scene: &Scene) -> Result<(), Fault> {
+    let guard = &scene.guard;
+    if !guard.min.is_empty() || !guard.max.is_empty() {
+        vector(scene, key_path!["guard", "min"], &guard.min, false)?;
+        vector(scene, key_path!["guard", "max"], &guard.max, false)?;
+        if let Some(k) = guard.min.iter().zip(&guard.max).position(|(min, max)| min >= max) {
+            let message = format!("max is {}, min {}", guard.max[k], guard.min[k]);
+            return Err(Fault::new(key_path!["guard", "max", k], message, "expected more than min"));
+        }
+    }
+    for (name, limit) in [("penetration", guard.penetration), ("energy", guard.energy)] {
+        if let Some(limit) = limit.filter(|limit| limit.is_nan() || *limit < 0.0) {
+            return Err(Fault::new(key_path!["guard", name], format!("the limit is {limit}"), "expected 0 or more"));
+        }
+    }
+    Ok(())
 }
 
 fn checkpoint(checkpoint: &CheckpointSpec) -> Result<(), Fault> {

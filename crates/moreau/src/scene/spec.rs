@@ -6,7 +6,7 @@ use super::events::DriveSpec;
 use super::shape::{ShapeSpec, is_false};
 use super::values::{Angular, Orientation};
 use crate::trajectory::Precision;
-use crate::world::{OnFailure, Start};
+use crate::world::{OnBreach, OnFailure, Start};
 use moreau_solve::{Criterion, GlobalMethod, Kernels, Law, LocalMethod, Order, Parameter, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -295,6 +295,25 @@ impl Default for Output {
             precision: Precision::Single,
         }
     }
+}
+
+/// Limits that each step must keep to; those that are not given are none.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct GuardSpec {
+    /// The lowest corner of the region in which centres of free bodies stay, m; with `max`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub min: Vec<f64>,
+    /// Its highest corner, m.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub max: Vec<f64>,
+    /// How deep bodies may overlap at the predicted configuration, as a part of the smaller one's bounding radius.
+    pub penetration: Option<f64>,
+    /// How much energy a step may create, J: by how much kinetic and potential energy may grow beyond the work done. Rounding and the
+    /// solver's tolerance create some.
+    pub energy: Option<f64>,
+    /// What to do when a step breaks a limit.
+    pub policy: OnBreach,
 }
 
 /// How often a run is kept, so that it can go on after whatever stopped it. The last two checkpoints are in its folder.

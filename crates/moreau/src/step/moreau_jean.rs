@@ -6,25 +6,25 @@ use super::localise::{Localiser, margins, speed};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
-use super::{Localised, StepError, Workspace, closing, forces, integrate};
+use super::{Localised, StepError, Workspace, closing, forces, guard, integrate};
 use crate::contacts::{Contact, ContactKey};
 use crate::shape::Shape;
 use crate::space::Space;
-use crate::world::{OnFailure, Start, World};
+use crate::world::{OnBreach, OnFailure, Start, World};
 use moreau_solve::files::ProblemFile;
 use moreau_solve::{Acts, Report, Status, tasks};
 use std::ops::Range;
 use std::time::Instant;
 
-/// How often a step may be halved.
-const HALVINGS: u32 = 6;
+/// In how many parts a step may be done.
+const MOST_PARTS: u32 = 64;
 
 /// Advances the world by one step.
 ///
 /// # Errors
 /// [`StepError::Unconverged`] where the policy says to stop; the world is then as before the step, but for what
-/// events and drives did at its beginning.
-/// [`StepError::NotFinite`] where a velocity or position ceases to be a number.
+/// events and drives did at its beginning; so it is after any error where steps may be halved.
+/// [`StepError::NotFinite`] where a velocity or position ceases to be a number, [`StepError::Breach`] where the step breaks a limit.
 pub fn step<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
@@ -43,13 +43,7 @@ pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     work.ledger.bring(world.act());
     let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.present(), ..StepRecord::default() };
     let end = world.time + world.settings.h;
-    if let Err(error) = advance(world, work, &mut record, world.settings.h, 0) {
-        if let Some(before) = work.before.take() {
-            before.restore(world, &mut work.ledger);
-        }
-        return Err(error);
-    }
-    work.before = None;
+    advance(world, work, &mut record, world.settings.h)?;
     correct::positions(world, work);
     world.steps += 1;
     // Halves add up to h only to rounding; the clock counts whole steps.
@@ -60,13 +54,42 @@ pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     Ok(record)
 }
 
-/// One step of length `h`, or two of half its length where the solve fails and the policy asks for it.
+/// One step of length `h`, or two of half its length, or four of a quarter, where it fails and the policy asks for it.
 fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
     record: &mut StepRecord,
     h: f64,
-    depth: u32,
+) -> Result<(), StepError> {
+    let (solves, limits) = (world.settings.on_failure == OnFailure::Halve, world.guard.policy == OnBreach::Halve);
+    if !solves && !limits {
+        return attempt(world, work, record, h);
+    }
+    let (before, so_far) = (Before::of(world, &work.ledger), record.clone());
+    let mut parts = 1;
+    loop {
+        let result = (0..parts).try_for_each(|_| attempt(world, work, record, h / f64::from(parts)));
+        let Err(error) = result else { return Ok(()) };
+        before.restore(world, &mut work.ledger);
+        let again = match error {
+            StepError::Unconverged { .. } | StepError::SolveNotFinite { .. } => solves,
+            StepError::NotFinite { .. } | StepError::Breach { .. } => limits,
+        };
+        if !again || parts == MOST_PARTS {
+            return Err(error);
+        }
+        // What was done in vain took its time all the same.
+        *record = StepRecord { sweeps: record.sweeps, seconds: record.seconds, ..so_far.clone() };
+        parts *= 2;
+    }
+}
+
+/// One step of length `h`.
+fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    record: &mut StepRecord,
+    h: f64,
 ) -> Result<(), StepError> {
     let (theta, start) = (world.settings.theta, world.time);
     // 1-2 drives, forces, v_free = v + h M⁻¹ f
@@ -86,7 +109,7 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     // 9 impulses
     let clock = Instant::now();
     let dumps = world.settings.on_failure == OnFailure::Dump && work.failed.count < FAILED_KEPT;
-    if dumps {
+    if dumps || world.guard.dumps() {
         work.systems.get(kind).impulses(&mut work.failed.start);
     }
     let report = closing::solve(world, work, kind, h);
@@ -94,14 +117,9 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     record.sweeps += report.sweeps;
     if report.status != Status::Converged {
         if dumps {
-            keep_failed(world, work, kind, &report);
+            keep_failed(world, work, kind, (world.time + h, &report));
         }
         match world.settings.on_failure {
-            OnFailure::Halve if depth < HALVINGS => {
-                work.before.get_or_insert_with(|| Before::of(world, &work.ledger));
-                advance(world, work, record, 0.5 * h, depth + 1)?;
-                return advance(world, work, record, 0.5 * h, depth + 1);
-            }
             OnFailure::Warn | OnFailure::Dump if report.status != Status::NotFinite => {}
             _ => return Err(unconverged(world.time + h, &report)),
         }
@@ -114,8 +132,8 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     }
     work.after.clone_from(&work.free);
     work.systems.get(kind).deposit(&world.bodies, &work.middle, &mut work.after);
-    note(record, work, report);
     record.h = h;
+    let dissipated = work.ledger.dissipated();
     work.ledger.book(&world.bodies, &world.gravity, [&work.free, &work.after], &work.contacts, (h, theta));
     work.ledger.book_joints(&work.joints.blocks);
     // 11 q⁺ = q_m + h θ v⁺
@@ -124,18 +142,30 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     remember(work);
     world.time += h;
     world.schedule.place(&mut world.bodies, world.time);
-    check_finite(world)
+    check_finite(world)?;
+    let breach = guard::check(world, work, dissipated - work.ledger.dissipated());
+    if let Some(breach) = breach {
+        if world.guard.policy != OnBreach::Warn {
+            if world.guard.dumps() {
+                keep_failed(world, work, kind, (world.time, &report));
+            }
+            return Err(StepError::Breach { time: world.time, breach });
+        }
+        record.breach.get_or_insert(breach);
+    }
+    note(record, work, report);
+    Ok(())
 }
 
-/// Keeps the problem whose solve failed.
+/// Keeps the problem of a (part of a) step to `time`.
 fn keep_failed<S: Space<D, N>, const D: usize, const N: usize>(
     world: &World<S, D, N>,
     work: &mut Workspace<S, D, N>,
     kind: Kind,
-    report: &Report,
+    (time, report): (f64, &Report),
 ) {
     let step = world.steps + 1;
-    let info = failed::info(step, world.time + world.settings.h, &world.settings, report);
+    let info = failed::info(step, time, &world.settings, report);
     let problem = work.systems.get(kind).problem(&work.failed.start);
     work.failed.last = Some(FailedSolve { step, problem: problem.map(|problem| ProblemFile { info, ..problem }) });
     work.failed.count += 1;

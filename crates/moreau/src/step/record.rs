@@ -1,5 +1,6 @@
 //! What a step tells: solver, penetration, energy ledger, seconds.
 
+use super::guard::Breach;
 use super::joints::Block;
 use super::workspace::Localised;
 use crate::bodies::Bodies;
@@ -70,6 +71,8 @@ pub struct StepRecord {
     pub joint_error: f64,
     /// Energies.
     pub energy: Energy,
+    /// How it broke a limit of [`Guard`](crate::world::Guard), where that is only counted.
+    pub breach: Option<Breach>,
     /// Time taken.
     pub seconds: Seconds,
 }
@@ -158,6 +161,11 @@ impl Ledger {
             self.work -= dot(&block.impulse, &block.driven);
             self.dissipated -= dot(&block.impulse, &mean);
         }
+    }
+
+    /// What was dissipated since the start, J.
+    pub(super) fn dissipated(&self) -> f64 {
+        self.dissipated
     }
 
     /// Books what events and corrections of positions bring.

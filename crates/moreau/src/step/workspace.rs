@@ -58,7 +58,7 @@ impl<const D: usize> Localised<D> {
     }
 }
 
-/// The world before a step that is being halved, to go back to if its second part fails.
+/// The world before a step that may have to be halved.
 pub(super) struct Before<S: Space<D, N>, const D: usize, const N: usize> {
     pose: Vec<Pose<S::Rotation, D>>,
     velocity: Vec<[f64; N]>,
@@ -72,8 +72,9 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Before<S, D, N> {
         Self { pose: bodies.pose.clone(), velocity: bodies.velocity.clone(), time: world.time, ledger: *ledger }
     }
 
-    pub(super) fn restore(self, world: &mut World<S, D, N>, ledger: &mut Ledger) {
-        (world.bodies.pose, world.bodies.velocity) = (self.pose, self.velocity);
+    pub(super) fn restore(&self, world: &mut World<S, D, N>, ledger: &mut Ledger) {
+        world.bodies.pose.clone_from(&self.pose);
+        world.bodies.velocity.clone_from(&self.velocity);
         (world.time, *ledger) = (self.time, self.ledger);
     }
 }
@@ -94,7 +95,6 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) systems: Systems<S, D, N>,
     pub(super) correction: Correction<D, N>,
     pub(super) ledger: Ledger,
-    pub(super) before: Option<Before<S, D, N>>,
     pub(super) failed: Failed,
     pub(crate) history: Vec<HistoryRow>,
 }
@@ -116,7 +116,6 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             systems: Systems::default(),
             correction: Correction::default(),
             ledger: Ledger::default(),
-            before: None,
             failed: Failed::default(),
             history: Vec::new(),
         }
