@@ -8,7 +8,7 @@ mod words;
 use crate::failure::{Failure, say, write_whole};
 use crate::view::{self, Pace};
 use crate::{progress, scene};
-use folder::{observers, prepare};
+use folder::{claim, observers, prepare};
 use moreau::checkpoint::{Checkpoint, Checkpoints};
 use moreau::io::whole;
 use moreau::observe::{Observer, Summary};
@@ -104,6 +104,7 @@ fn begin<S: Space<D, N>, const D: usize, const N: usize>(
     from: Option<&Checkpoint>,
 ) -> Result<(), Failure> {
     let (mut work, mut before) = (Workspace::default(), Summary::default());
+    let _claim = claim(folder)?;
     if let Some(checkpoint) = from {
         checkpoint.restore(&mut world, &mut work).map_err(Failure::scene)?;
         before = checkpoint.summary.clone();

@@ -128,6 +128,24 @@ fn a_system_that_goes_down_may_ask_a_run_to_end() {
 }
 
 #[test]
+fn two_runs_do_not_write_into_one_folder() {
+    let place = Place::with("ten.toml", TEN);
+    let words = ["run", "ten.toml", "--out", "mine", "--steps", "1000000000", "--quiet", "--set", "output.every=0"];
+    let running = Running::start(&place, &words);
+    wait_for_rows(&place, "mine/steps.csv");
+    for words in [&["run", "ten.toml", "--out", "mine"][..], &["run", "--resume", "mine"]] {
+        let ran = place.moreau(words);
+        assert!(ran.code == Some(1) && ran.out.is_empty(), "{ran:?}");
+    }
+    place.moreau(&["run", "ten.toml", "--out", "mine"]).fails(1, &["cannot write into mine: another run is at work there"]);
+    running.interrupt();
+    assert_eq!(running.end().0, Some(130));
+    let steps = place.summary("mine")["steps"].as_u64().unwrap();
+    assert_eq!(place.read("mine/steps.csv").lines().count() as u64, 1 + steps);
+    place.moreau(&["run", "ten.toml", "--out", "mine", "--quiet"]).fine();
+}
+
+#[test]
 fn a_second_signal_ends_it_at_once() {
     let place = Place::with("ten.toml", TEN);
     // A step that takes hours: the first signal waits for its end.

@@ -1,5 +1,6 @@
 //! `moreau run --convergence`: the scene at its step, at half of it, at a quarter.
 
+use super::folder::claim;
 use crate::failure::{Failure, say, write_whole};
 use crate::table::aligned;
 use crate::{progress, scene};
@@ -12,7 +13,7 @@ use std::path::Path;
 /// Runs the study, prints its table and writes convergence.csv.
 pub(super) fn run(scene: &Scene, halvings: u32, threads: usize, quiet: bool, folder: &Path) -> Result<(), Failure> {
     let stop = progress::stop_on_ctrl_c()?;
-    std::fs::create_dir_all(folder).map_err(|error| Failure::file(format!("cannot write into {}: {error}", folder.display())))?;
+    let _claim = claim(folder)?;
     let all = (0..=halvings).fold(0_u64, |all, level| all.saturating_add(scene.time.steps << level));
     let bar = progress::bar(all, quiet);
     let tick = |record: &_| progress::tick(&bar, record);

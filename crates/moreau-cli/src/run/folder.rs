@@ -7,15 +7,27 @@ use moreau::observe::{FailedProblems, MeasuresCsv, Observer, StepsCsv, Trajector
 use moreau::scene::{OutputKind, Scene};
 use moreau::space::Space;
 use moreau::world::{OnFailure, World};
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
-/// Makes the folder and takes an earlier run's files out of it: a mixture of two runs would mislead. Nothing is taken before it is
+/// Makes the folder, and sure that no other run is at work in it until what this gives is dropped. (Where a system knows no such thing, nobody
+/// looks.)
+pub(super) fn claim(folder: &Path) -> Result<Option<File>, Failure> {
+    std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
+    let Ok(handle) = File::open(folder) else { return Ok(None) };
+    match handle.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(wrong(folder, &"another run is at work there")),
+        _ => Ok(Some(handle)),
+    }
+}
+
+fn wrong(path: &Path, reason: &dyn std::fmt::Display) -> Failure {
+    Failure::file(format!("cannot write into {}: {reason}; choose another folder with --out", path.display()))
+}
+
+/// Takes an earlier run's files out of the folder: a mixture of two runs would mislead. Nothing is taken before it is
 /// sure that all can be written, and never the scene that is being run.
 pub(super) fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
-    let wrong = |path: &Path, reason: &dyn std::fmt::Display| {
-        Failure::file(format!("cannot write into {}: {reason}; choose another folder with --out", path.display()))
-    };
-    std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
     let files = ["scene.toml", "summary.json", "steps.csv", "measures.csv", "trajectory.h5"].map(|file| folder.join(file));
     for file in &files {
         writable(file)?;
