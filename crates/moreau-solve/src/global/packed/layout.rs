@@ -7,7 +7,7 @@ use crate::wide::LANES;
 use std::ops::Range;
 
 /// Contacts of a block: enough for their colours to fill groups, few enough to stay in a cache with their bodies.
-const BLOCK: usize = 1024;
+const BLOCK: usize = if cfg!(miri) { 32 } else { 1024 };
 
 /// Waves and colours are the bits of a word.
 const COLOURS: usize = 64;
