@@ -47,7 +47,7 @@ pub fn write(path: &Path, parts: &[&[u8]]) -> io::Result<()> {
     filled(path, parts)?.persist(path).map(drop).map_err(|refused| refused.error)
 }
 
-/// As [`write`], and when this returns the file is on the disk, under its name.
+/// As [`write()`], and when this returns the file is on the disk, under its name.
 ///
 /// # Errors
 /// As there.
