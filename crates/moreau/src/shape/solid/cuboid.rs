@@ -104,6 +104,10 @@ impl Faceted for Cuboid {
         let [x, y, z] = self.half;
         (x * x + y * y + z * z).sqrt()
     }
+
+    fn inner(&self) -> f64 {
+        self.half.into_iter().fold(f64::INFINITY, f64::min)
+    }
 }
 
 #[cfg(test)]

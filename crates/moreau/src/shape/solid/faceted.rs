@@ -18,6 +18,8 @@ pub trait Faceted {
     fn edges(&self) -> &[Edge];
     /// Radius of the ball around the centre of mass that holds it, m.
     fn radius(&self) -> f64;
+    /// Radius of a ball around the centre of mass that lies inside it, m: the larger, the sooner contacts are found.
+    fn inner(&self) -> f64;
 }
 
 /// Its faces.

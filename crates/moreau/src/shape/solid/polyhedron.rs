@@ -6,6 +6,7 @@ mod tests;
 
 use super::inertia::Moments;
 use super::{Edge, Faceted, faceted};
+use crate::detect::narrow::vector::dot;
 use crate::shape::{Figure, Polygons, ShapeError};
 use crate::space::{Pose, Solid, Space};
 use glam::DQuat;
@@ -29,6 +30,7 @@ struct Form {
     normals: Vec<[f64; 3]>,
     edges: Vec<Edge>,
     radius: f64,
+    inner: f64,
     /// m³.
     volume: f64,
     /// Principal moments of inertia at density 1, m⁵.
@@ -86,8 +88,10 @@ impl Form {
             Some(*end)
         }));
         let radius = vertices.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>()).fold(0.0, f64::max).sqrt();
-        let normals = faces.iter().map(|face| normal(&vertices, face)).collect();
-        Self { normals, edges: edges(faces), corners: faces.concat(), starts, radius, volume, moments, vertices }
+        let normals: Vec<[f64; 3]> = faces.iter().map(|face| normal(&vertices, face)).collect();
+        let height = |(face, normal): (&Vec<u16>, &[f64; 3])| dot(*normal, vertices[usize::from(face[0])]);
+        let inner = faces.iter().zip(&normals).map(height).fold(radius, f64::min).max(0.0);
+        Self { normals, edges: edges(faces), corners: faces.concat(), starts, radius, inner, volume, moments, vertices }
     }
 }
 
@@ -162,5 +166,10 @@ impl Faceted for Polyhedron {
     #[inline]
     fn radius(&self) -> f64 {
         self.form.radius
+    }
+
+    #[inline]
+    fn inner(&self) -> f64 {
+        self.form.inner
     }
 }

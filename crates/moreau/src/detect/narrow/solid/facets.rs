@@ -8,20 +8,25 @@
 //! A point's feature says which vertices or edges make it, not which face was the reference, so features of bodies at rest stay as they are.
 
 mod axes;
+mod bounds;
 mod nearest;
 mod overlap;
 mod points;
+mod seen;
 
 use super::Pose;
 use super::curved::seen_from;
 use crate::detect::narrow::common::LEVEL;
-use crate::detect::narrow::vector::{along, dot};
-use crate::shape::solid::{Edge, Faceted};
+use crate::detect::narrow::vector::along;
+use crate::shape::solid::Faceted;
 use crate::space::{Solid, Space};
-use axes::{Axis, Crossing, are_beyond, best};
+pub(super) use axes::support;
+use axes::{are_beyond, edges, faces};
+use bounds::Bounds;
 use nearest::nearest;
 use overlap::overlap;
 pub(super) use points::Points;
+pub(super) use seen::{Corners, Seen};
 use std::cell::RefCell;
 
 /// What makes a point, by its kind: 0 a vertex of the first body, 1 one of the second, 2 an edge of each by their numbers, 3 one of each by the
@@ -45,80 +50,12 @@ struct Scratch {
     points: Points,
     /// The corners of two faces in their common plane.
     flat: [Vec<[f64; 2]>; 2],
-    crossing: Crossing,
+    bounds: Bounds,
 }
 
 thread_local! {
     static CORNERS: RefCell<[Corners; 2]> = RefCell::default();
     static SCRATCH: RefCell<Scratch> = RefCell::default();
-}
-
-/// Vertices and normals of a body in the frame in which it is seen.
-#[derive(Default)]
-pub(super) struct Corners {
-    vertices: Vec<[f64; 3]>,
-    normals: Vec<[f64; 3]>,
-}
-
-impl Corners {
-    /// Those of a body that has its own frame.
-    fn own(&mut self, body: &impl Faceted) {
-        self.vertices.clear();
-        self.vertices.extend((0..body.vertices()).map(|i| body.vertex(i)));
-        self.normals.clear();
-        self.normals.extend((0..body.faces()).map(|i| body.normal(i)));
-    }
-
-    /// Those of a body in this place.
-    pub(super) fn place(&mut self, body: &impl Faceted, pose: &Pose) {
-        self.own(body);
-        let turn = |v: &[f64; 3]| Solid::rotate(pose.rotation, *v);
-        self.vertices.iter_mut().for_each(|v| *v = along(pose.position, 1.0, turn(v)));
-        self.normals.iter_mut().for_each(|n| *n = turn(n));
-    }
-
-    pub(super) fn vertices(&self) -> &[[f64; 3]] {
-        &self.vertices
-    }
-}
-
-/// A body as seen in some frame.
-#[derive(Clone, Copy)]
-pub(super) struct Seen<'a, F> {
-    pub(super) body: &'a F,
-    pub(super) vertices: &'a [[f64; 3]],
-    pub(super) normals: &'a [[f64; 3]],
-}
-
-impl<'a, F: Faceted> Seen<'a, F> {
-    pub(super) fn new(body: &'a F, Corners { vertices, normals }: &'a Corners) -> Self {
-        Self { body, vertices, normals }
-    }
-
-    /// The vertex of face `i` and place `k` in it.
-    fn corner(&self, face: usize, k: usize) -> [f64; 3] {
-        self.vertices[usize::from(self.body.face(face)[k])]
-    }
-
-    /// Both ends of an edge.
-    fn ends(&self, edge: &Edge) -> [[f64; 3]; 2] {
-        edge.ends.map(|end| self.vertices[usize::from(end)])
-    }
-
-    /// The face that faces this direction: of those with the most corners that lie farthest against it, to within `level`, the one whose
-    /// normal is most against it. Without the corners it could be a large face beside a tip.
-    fn facing(&self, direction: [f64; 3], level: f64) -> usize {
-        let height = |i: usize| dot(direction, self.vertices[i]);
-        let lowest = (0..self.vertices.len()).map(height).fold(f64::INFINITY, f64::min) + level;
-        let count = |face: usize| self.body.face(face).iter().filter(|&&i| height(usize::from(i)) <= lowest).count();
-        let against = |face: usize| dot(direction, self.normals[face]);
-        let first = (0, count(0), against(0));
-        let better = |best: (usize, usize, f64), face: usize| {
-            let next = (face, count(face), against(face));
-            if next.1 > best.1 || (next.1 == best.1 && next.2 < best.2) { next } else { best }
-        };
-        (1..self.normals.len()).fold(first, better).0
-    }
 }
 
 pub(super) fn collide<A: Faceted, B: Faceted>(
@@ -174,21 +111,41 @@ impl Scratch {
         overlap(a, face, b, true, level(a, b), &mut self.flat, &mut self.points);
     }
 
-    /// The points where the bodies are nearest.
+    /// The points where the bodies are nearest. Of axes that are as good as each other faces come before edges.
     fn nearest<A: Faceted, B: Faceted>(&mut self, a: &Seen<'_, A>, b: &Seen<'_, B>, reach: f64) {
         let level = level(a, b);
-        let Some((axis, apart)) = best(a, b, &mut self.crossing, level, reach) else { return };
-        match axis {
-            Axis::FaceOfFirst(face) => self.along(a, face, b),
-            Axis::FaceOfSecond(face) => overlap(b, face, a, false, level, &mut self.flat, &mut self.points),
-            Axis::Edges(point, true) => self.points.add(point),
-            Axis::Edges(_, false) => {}
+        let Some(face) = faces(a, b, level, reach) else { return };
+        let (mut normal, mut apart) = if face.of_first {
+            self.along(a, face.number, b);
+            (a.normals[face.number], face.apart)
+        } else {
+            overlap(b, face.number, a, false, level, &mut self.flat, &mut self.points);
+            (b.normals[face.number].map(|x| -x), face.apart)
+        };
+        // Where the bodies are apart and a face or two edges are nearest, the axis has their distance, and no other has more.
+        if apart > 0.0 && self.least() <= apart + level {
+            return;
         }
-        let least = self.points.all().iter().map(|point| point.gap).fold(f64::INFINITY, f64::min);
-        // Where the bodies are apart and a face or two edges are nearest, the axis has their distance.
-        if least > apart.max(0.0) + level {
+        if let Some((point, within)) = edges(a, b, apart, level, &mut self.bounds)
+            && point.gap > apart + level
+        {
+            (normal, apart) = (point.normal, point.gap);
             self.points.clear();
-            self.points.add(nearest(a, b, &axis, apart, level));
+            if apart > reach {
+                return;
+            }
+            if within {
+                self.points.add(point);
+            }
         }
+        if self.least() > apart.max(0.0) + level {
+            self.points.clear();
+            self.points.add(nearest(a, b, (normal, apart), level));
+        }
+    }
+
+    /// The least gap of the points.
+    fn least(&self) -> f64 {
+        self.points.all().iter().map(|point| point.gap).fold(f64::INFINITY, f64::min)
     }
 }

@@ -71,7 +71,7 @@ impl<F: Faceted> Touches for F {
     }
 
     fn height(there: &There<'_, Self>, direction: [f64; 3]) -> f64 {
-        there.corners.vertices().iter().map(|&vertex| dot(direction, vertex)).fold(f64::NEG_INFINITY, f64::max)
+        facets::support(there.corners.vertices(), direction)
     }
 
     fn touch(there: &There<'_, Self>, triangle: &Triangle, reach: f64, emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64)) {
@@ -134,10 +134,13 @@ impl<B: Touches> Query<'_, B> {
     /// `deep` gets the gap and number of the one that the body leaves soonest along its normal.
     fn touch(&self, number: usize, found: &mut Vec<Found>, deep: &mut Option<(f64, usize)>) {
         let (surface, there) = (self.surface, &self.there);
-        if self.is_beyond(surface.corners(number)) {
+        let (corners, front) = (surface.corners(number), surface.normal(number));
+        let position = there.pose.position;
+        let nearest = nearest(corners, position);
+        if self.is_beyond(nearest) {
             return;
         }
-        let (triangle, front) = (self.triangle(number), surface.normal(number));
+        let triangle = Triangle::new(corners, front, nearest);
         let level = 16.0 * LEVEL * (triangle.radius() + there.body.size());
         let first = found.len();
         let (mut flat, mut bent) = (false, false);
@@ -155,7 +158,7 @@ impl<B: Touches> Query<'_, B> {
                 bent = true;
             }
         });
-        let in_front = dot(front, sub(there.pose.position, triangle.corners[0])) > 0.0;
+        let in_front = dot(front, sub(position, triangle.corners[0])) > 0.0;
         if flat && in_front {
             found.truncate(first);
             self.touch_front(number, found);
@@ -168,12 +171,10 @@ impl<B: Touches> Query<'_, B> {
         }
     }
 
-    /// Whether the body is out of reach along the line from the point of a triangle that is nearest to its middle, as most are of whose box it
+    /// Whether the body is out of reach along the line from the point of a triangle that is `nearest` to its middle, as most are of whose box it
     /// is within reach.
-    fn is_beyond(&self, corners: [[f64; 3]; 3]) -> bool {
-        let position = self.there.pose.position;
-        let nearest = nearest(corners, position);
-        let way = sub(position, nearest);
+    fn is_beyond(&self, nearest: [f64; 3]) -> bool {
+        let way = sub(self.there.pose.position, nearest);
         let length = dot(way, way).sqrt();
         let back = way.map(|x| -x);
         // In lengths of the way; of none nothing is beyond.
@@ -182,13 +183,10 @@ impl<B: Touches> Query<'_, B> {
 
     /// Adds the points that the body has along the normal of a triangle.
     fn touch_front(&self, number: usize, found: &mut Vec<Found>) {
-        let normal = self.surface.normal(number);
-        B::touch_front(&self.there, &self.triangle(number), self.reach, &mut |own, point, _, gap| {
+        let (corners, normal) = (self.surface.corners(number), self.surface.normal(number));
+        let triangle = Triangle::new(corners, normal, nearest(corners, self.there.pose.position));
+        B::touch_front(&self.there, &triangle, self.reach, &mut |own, point, _, gap| {
             found.push(Found { feature: on_piece(number, own), point, normal, gap });
         });
-    }
-
-    fn triangle(&self, number: usize) -> Triangle {
-        Triangle::new(self.surface.corners(number), self.surface.normal(number))
     }
 }

@@ -49,6 +49,10 @@ impl Faceted for Segment {
     fn radius(&self) -> f64 {
         self.half
     }
+
+    fn inner(&self) -> f64 {
+        0.0
+    }
 }
 
 impl Faceted for Dot {
@@ -77,6 +81,10 @@ impl Faceted for Dot {
     }
 
     fn radius(&self) -> f64 {
+        0.0
+    }
+
+    fn inner(&self) -> f64 {
         0.0
     }
 }

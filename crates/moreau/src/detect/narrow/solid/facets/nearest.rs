@@ -1,6 +1,6 @@
 //! Nearest points of edges and vertices.
 
-use super::{Axis, Point, Seen, feature};
+use super::{Point, Seen, feature};
 use crate::detect::narrow::vector::{along, cross, dot, sub};
 use crate::shape::solid::Faceted;
 
@@ -26,8 +26,13 @@ pub(super) fn between_lines(
 }
 
 /// The nearest points of which one is a vertex and the other a vertex or on an edge, from all of them: for bodies that are apart and have
-/// no face and no two edges nearest. Where they are as good as one the normal is the axis's, along which they are `apart`.
-pub(super) fn nearest<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, axis: &Axis, apart: f64, level: f64) -> Point {
+/// no face and no two edges nearest. Where they are as good as one the normal is that along which they are `apart`.
+pub(super) fn nearest<A: Faceted, B: Faceted>(
+    a: &Seen<'_, A>,
+    b: &Seen<'_, B>,
+    (normal, apart): ([f64; 3], f64),
+    level: f64,
+) -> Point {
     let mut best = (f64::INFINITY, 0, [[0.0; 3]; 2]);
     let mut meet = |feature: u64, on_a: [f64; 3], on_b: [f64; 3]| {
         let between = sub(on_b, on_a);
@@ -55,11 +60,6 @@ pub(super) fn nearest<A: Faceted, B: Faceted>(a: &Seen<'_, A>, b: &Seen<'_, B>, 
     if gap > level && apart > 0.0 {
         return Point { feature, at: on_b, normal: sub(on_b, on_a).map(|x| x / gap), gap };
     }
-    let normal = match axis {
-        Axis::FaceOfFirst(face) => a.normals[*face],
-        Axis::FaceOfSecond(face) => b.normals[*face].map(|x| -x),
-        Axis::Edges(point, _) => point.normal,
-    };
     Point { feature, at: on_b, normal, gap: apart }
 }
 

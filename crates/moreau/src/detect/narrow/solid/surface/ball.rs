@@ -24,7 +24,7 @@ impl Touches for Ball {
         reach: f64,
         emit: &mut impl FnMut(u64, [f64; 3], [f64; 3], f64),
     ) {
-        let between = sub(pose.position, nearest(triangle.corners, pose.position));
+        let between = sub(pose.position, triangle.nearest);
         let square = dot(between, between);
         let distance = square.sqrt();
         // A centre on the surface has the normal of the face.

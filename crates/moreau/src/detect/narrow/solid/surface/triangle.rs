@@ -9,6 +9,8 @@ use crate::shape::solid::{Edge, Faceted};
 
 pub(in crate::detect::narrow::solid) struct Triangle {
     pub(super) corners: [[f64; 3]; 3],
+    /// Its point that is nearest to the middle of the body that it meets.
+    pub(super) nearest: [f64; 3],
     /// Of the front, the back, and the sides.
     normals: [[f64; 3]; 5],
     radius: f64,
@@ -18,7 +20,7 @@ impl Triangle {
     /// The number of the face in front.
     pub(super) const FRONT: usize = 0;
 
-    pub(super) fn new(corners: [[f64; 3]; 3], front: [f64; 3]) -> Self {
+    pub(super) fn new(corners: [[f64; 3]; 3], front: [f64; 3], nearest: [f64; 3]) -> Self {
         let way = |k: usize| sub(corners[(k + 1) % 3], corners[k]);
         let side = |k: usize| {
             let way = way(k);
@@ -26,7 +28,7 @@ impl Triangle {
             cross(way, front).map(|x| x / length)
         };
         let longest = (0..3).map(|k| dot(way(k), way(k))).fold(0.0, f64::max);
-        Self { corners, normals: [front, front.map(|x| -x), side(0), side(1), side(2)], radius: longest.sqrt() }
+        Self { corners, nearest, normals: [front, front.map(|x| -x), side(0), side(1), side(2)], radius: longest.sqrt() }
     }
 
     pub(super) fn radius(&self) -> f64 {
@@ -34,7 +36,7 @@ impl Triangle {
     }
 
     pub(super) fn seen(&self) -> Seen<'_, Self> {
-        Seen { body: self, vertices: &self.corners, normals: &self.normals }
+        Seen { body: self, vertices: &self.corners, normals: &self.normals, middle: self.nearest }
     }
 }
 
@@ -80,5 +82,9 @@ impl Faceted for Triangle {
     /// Its longest edge: a ball of this radius around any of its points holds it.
     fn radius(&self) -> f64 {
         self.radius
+    }
+
+    fn inner(&self) -> f64 {
+        0.0
     }
 }

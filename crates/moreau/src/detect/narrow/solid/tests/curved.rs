@@ -53,6 +53,11 @@ impl Faceted for [[f64; 3]; 3] {
     fn radius(&self) -> f64 {
         self.iter().map(|&v| DVec3::from(v).length()).fold(0.0, f64::max)
     }
+
+    fn inner(&self) -> f64 {
+        // Its origin may be anywhere.
+        f64::NEG_INFINITY
+    }
 }
 
 impl Body {
