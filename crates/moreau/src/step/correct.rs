@@ -9,6 +9,8 @@
 //! which is the problem of a step without friction with gaps for velocities; theory (67). Velocities stay as they are, so no kinetic energy
 //! is made; what weights gain in height is booked as work.
 
+mod doubt;
+
 use super::integrate::moved;
 use super::localise::{margins, speed};
 use super::record::energies;
@@ -20,6 +22,7 @@ use crate::shape::Shape;
 use crate::space::Space;
 use crate::world::World;
 use moreau_solve::{Criterion, Settings};
+use std::time::Instant;
 
 /// How often the problem, which is linear in δ, is posed anew in one step: of a thousand stones that land half of what is left remains each time.
 const ROUNDS: usize = 16;
@@ -33,6 +36,7 @@ const TOLERANCE: f64 = 1e-6;
 
 /// Scratch, kept from step to step.
 pub(super) struct Correction<const D: usize, const N: usize> {
+    doubtful: Vec<(u32, u32)>,
     reach: Vec<f64>,
     found: Vec<Contact<D>>,
     contacts: Vec<Localised<D>>,
@@ -42,26 +46,33 @@ pub(super) struct Correction<const D: usize, const N: usize> {
 
 impl<const D: usize, const N: usize> Default for Correction<D, N> {
     fn default() -> Self {
-        Self { reach: Vec::new(), found: Vec::new(), contacts: Vec::new(), displacement: Vec::new() }
+        Self { doubtful: Vec::new(), reach: Vec::new(), found: Vec::new(), contacts: Vec::new(), displacement: Vec::new() }
     }
 }
 
-/// Puts the positions right at the end of a step, if that is asked for and some overlap may be too deep there.
+/// Puts the positions right at the end of a step, if that is asked for and some overlap may be too deep there; gives the seconds that contacts
+/// were looked for.
 pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
-) {
-    let Some(part) = world.settings.max_penetration else { return };
-    if !may_be_too_deep(world, work, part) {
-        return;
+) -> f64 {
+    let Some(part) = world.settings.max_penetration else { return 0.0 };
+    let clock = Instant::now();
+    let doubt = doubt::may_be_too_deep(world, work, part);
+    let mut seconds = clock.elapsed().as_secs_f64();
+    if !doubt {
+        return seconds;
     }
-    let too_deep = |bodies: &Bodies<S, D, N>, found: &[Contact<D>]| found.iter().any(|c| -c.gap > allowed(bodies, c, part));
+    let too_deep =
+        |bodies: &Bodies<S, D, N>, found: &[Contact<D>]| found.iter().any(|c| -c.gap > allowed(bodies, (c.key.a, c.key.b), part));
     let (_, before) = energies(&world.bodies, &world.gravity);
     let since = world.settings.h * world.settings.theta;
     work.correction.displacement.clear();
     work.correction.displacement.extend(world.bodies.velocity.iter().map(|v| v.map(|x| since * x)));
     for round in 0..ROUNDS {
+        let clock = Instant::now();
         detect(world, work, part);
+        seconds += clock.elapsed().as_secs_f64();
         if !too_deep(&world.bodies, &work.correction.found) {
             break;
         }
@@ -69,20 +80,7 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
     }
     let (_, after) = energies(&world.bodies, &world.gravity);
     work.ledger.bring(after - before);
-}
-
-/// Whether some overlap may be too deep where bodies are now. Contacts were found at the predicted configuration, and each body has gone on
-/// since, by no more than its speed tells: at rest that says that nothing need be looked for again.
-fn may_be_too_deep<S: Space<D, N>, const D: usize, const N: usize>(
-    world: &World<S, D, N>,
-    work: &Workspace<S, D, N>,
-    part: f64,
-) -> bool {
-    let bodies = &world.bodies;
-    let way = |i: usize| world.settings.h * world.settings.theta * way_of(bodies, i, &bodies.velocity[i]);
-    let nearer = |contact: &Contact<D>| way(contact.key.a as usize) + way(contact.key.b as usize) - contact.gap;
-    // What was out of reach may have come within.
-    (0..bodies.len()).any(|i| way(i) > work.reach[i]) || work.found.iter().any(|c| nearer(c) > allowed(bodies, c, part))
+    seconds
 }
 
 /// No point of body `i` goes farther than this in the time in which it is displaced so (m and rad; or a velocity, then in a second).
@@ -91,9 +89,9 @@ fn way_of<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, 
 }
 
 /// How deep two bodies may overlap, m.
-fn allowed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, contact: &Contact<D>, part: f64) -> f64 {
+fn allowed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, (a, b): (u32, u32), part: f64) -> f64 {
     let radius = |body: u32| bodies.shape[body as usize].bounding_radius().unwrap_or(f64::INFINITY);
-    part * radius(contact.key.a).min(radius(contact.key.b))
+    part * radius(a).min(radius(b))
 }
 
 /// The contacts of the bodies where they are, with those that a displacement may close: one about as long as how far they came last, which is
@@ -118,7 +116,7 @@ fn displace<S: Space<D, N>, const D: usize, const N: usize>(
     correction.contacts.clear();
     correction.contacts.extend(correction.found.iter().map(|contact| {
         let mut room = [0.0; D];
-        room[0] = contact.gap + 0.5 * allowed(bodies, contact, part);
+        room[0] = contact.gap + 0.5 * allowed(bodies, (contact.key.a, contact.key.b), part);
         Localised::new(*contact, S::frame(contact.normal), None, [[0.0; D], room, [0.0; D]])
     }));
     let system = work.systems.get(kind);

@@ -44,7 +44,7 @@ pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.present(), ..StepRecord::default() };
     let end = world.time + world.settings.h;
     advance(world, work, &mut record, world.settings.h)?;
-    correct::positions(world, work);
+    record.seconds.detect += correct::positions(world, work);
     world.steps += 1;
     // Halves add up to h only to rounding; the clock counts whole steps.
     world.time = end;

@@ -33,7 +33,7 @@ pub struct Energy {
 /// Seconds of wall-clock time by stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seconds {
-    /// Neighbour search and exact pairs.
+    /// Neighbour search and exact pairs, also for the correction of positions.
     pub detect: f64,
     /// Frames, velocities, laws, operator.
     pub localise: f64,
