@@ -103,6 +103,7 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
     correction.reach.extend((0..bodies.len()).map(reach));
     let driven = |i: usize| !bodies.is_free(i);
     work.detector.detect::<S, N>(&bodies.shape, &bodies.pose, &correction.reach, driven, &mut correction.found);
+    work.joints.part(&world.joints, &mut correction.found);
 }
 
 /// Moves the bodies by the least displacement that helps.

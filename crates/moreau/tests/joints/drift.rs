@@ -42,3 +42,27 @@ fn a_hinge_in_space_does_not_open() {
     assert!(halves[0] < 1e-5 && halves[1] < 1.1 * halves[0], "{halves:?}");
     assert!(energies[1] < 1.5 * energies[0] && energies[0] < 1e-3 * 105.0 * 9.81, "energy moves by {energies:?}");
 }
+
+/// Two bars overlap where a hinge joins them, which keeps them from touching. Where another body lands and is too deep, and positions are put right, the
+/// bars stay as they are.
+#[test]
+fn what_a_joint_keeps_from_touching_is_not_pushed_apart() {
+    let body = |name: &str, at: [f64; 2], drive: &str| {
+        format!(
+            "[[bodies]]\nname = \"{name}\"\nshape.box = {{ size = [0.4, 0.1] }}\nmaterial = \"steel\"\nposition = {at:?}\n{drive}\n"
+        )
+    };
+    let text = format!(
+        "{}default_law.frictionless = {{}}\n{}{}{}{}[[joints]]\nkind.hinge = {{ anchor = [0.15, 0.0] }}\nbetween = [\"left\", \"right\"]\n",
+        head(2, 1e-3).replace("tolerance = 1e-12,", "tolerance = 1e-12, max_penetration = 1e-3,"),
+        body("left", [0.0, 0.0], ""),
+        body("right", [0.3, 0.0], ""),
+        body("shelf", [5.0, 0.0], "motion = \"fixed\""),
+        body("deep", [5.0, 0.1005], "velocity = [0.0, -5.0]")
+    );
+    let mut world = plane(&text);
+    run(&mut world, 10, |world, _, _| close(error(world), 0.0, 1e-12, "the hinge"));
+    close(world.bodies.pose[1].position[0] - world.bodies.pose[0].position[0], 0.3, 1e-12, "the bars");
+    let raised = world.bodies.pose[3].position[1];
+    assert!(raised > 0.0997, "the deep one was put right: {raised}");
+}
