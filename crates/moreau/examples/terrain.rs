@@ -42,7 +42,7 @@ fn make(cells: usize, rocks: usize, folder: &Path) -> Result<(), Box<dyn Error>>
     let (low, high) = ([begin, middle - 0.5 * across, 4.0], [begin + 8.0, middle + 0.5 * across, 5.5]);
     let scene = format!(
         "title = \"{rocks} rocks on {} triangles\"\ndimension = 3\ngravity = [0.0, 0.0, -9.81]\ntime = {{ step = 1e-3, steps = 4000 }}\n\
-         solver = {{ start = \"warm\", criterion = \"scaled\", tolerance = 1e-4, max_penetration = 1e-2 }}\nmaterials.rock.density = 2700.0\n\
+         solver = {{ start = \"warm\", criterion = \"scaled\", max_penetration = 1e-2 }}\nmaterials.rock.density = 2700.0\n\
          default_law.coulomb = {{ friction = 0.5, acts = \"approach\" }}\n\
          [[bodies]]\nname = \"ground\"\nmaterial = \"rock\"\nposition = [0, 0, 0]\n\
          shape.height_field = {{ file = \"heights.csv\", spacing = [{SPACING}, {SPACING}] }}\n\
