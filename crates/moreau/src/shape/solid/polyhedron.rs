@@ -89,8 +89,9 @@ impl Form {
         }));
         let radius = vertices.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>()).fold(0.0, f64::max).sqrt();
         let normals: Vec<[f64; 3]> = faces.iter().map(|face| normal(&vertices, face)).collect();
-        let height = |(face, normal): (&Vec<u16>, &[f64; 3])| dot(*normal, vertices[usize::from(face[0])]);
-        let inner = faces.iter().zip(&normals).map(height).fold(radius, f64::min).max(0.0);
+        // Faces need be flat only so far: of each the lowest corner counts.
+        let heights = faces.iter().zip(&normals).flat_map(|(face, &n)| face.iter().map(move |&i| (n, usize::from(i))));
+        let inner = heights.map(|(normal, i)| dot(normal, vertices[i])).fold(radius, f64::min).max(0.0);
         Self { normals, edges: edges(faces), corners: faces.concat(), starts, radius, inner, volume, moments, vertices }
     }
 }
