@@ -36,6 +36,9 @@ fn tight(local: LocalMethod) -> Settings {
     Settings { local, criterion: Criterion::Scaled, tolerance: 1e-12, ..plain }
 }
 
+/// From so many sweeps on rounding may decide how many there are.
+const SLOW: u64 = 100;
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -49,9 +52,10 @@ proptest! {
         let two = solve(&Problem { operator: &stored, q: &q, cones: &cones }, &settings, &mut s, &mut Default::default());
         prop_assert_eq!((one.status, two.status), (Status::Converged, Status::Converged));
         // Of hundreds of sweeps the last ones go on about rounding, in which the two differ, and leave what a slow sweep leaves.
-        prop_assert!(one.sweeps.abs_diff(two.sweeps) <= 1 + one.sweeps / 5, "{} and {} sweeps", one.sweeps, two.sweeps);
+        let (apart, room) = if one.sweeps > SLOW { (one.sweeps / 5, 1e-9) } else { (0, 1e-12) };
+        prop_assert!(one.sweeps.abs_diff(two.sweeps) <= apart, "{} and {} sweeps", one.sweeps, two.sweeps);
         for (r, s) in r.iter().flatten().zip(s.iter().flatten()) {
-            prop_assert!((r - s).abs() < 1e-9, "{r} is not {s}");
+            prop_assert!((r - s).abs() < room, "{r} is not {s}");
         }
     }
 
