@@ -63,8 +63,6 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
     if !doubt {
         return seconds;
     }
-    let too_deep =
-        |bodies: &Bodies<S, D, N>, found: &[Contact<D>]| found.iter().any(|c| -c.gap > allowed(bodies, (c.key.a, c.key.b), part));
     let (_, before) = energies(&world.bodies, &world.gravity);
     let since = world.settings.h * world.settings.theta;
     work.correction.displacement.clear();
@@ -73,7 +71,8 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
         let clock = Instant::now();
         detect(world, work, part);
         seconds += clock.elapsed().as_secs_f64();
-        if !too_deep(&world.bodies, &work.correction.found) {
+        let found = &work.correction.found;
+        if !found.iter().any(|c| -c.gap > allowed(&world.bodies, pair_of(c), part)) {
             break;
         }
         displace(world, work, part, if round < TURNING { Kind::Normal } else { Kind::Central });
@@ -86,6 +85,11 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
 /// No point of body `i` goes farther than this in the time in which it is displaced so (m and rad; or a velocity, then in a second).
 fn way_of<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, i: usize, displacement: &[f64; N]) -> f64 {
     speed::<D, N>(bodies.shape[i].bounding_radius().unwrap_or(0.0), displacement)
+}
+
+/// The bodies of a contact.
+fn pair_of<const D: usize>(contact: &Contact<D>) -> (u32, u32) {
+    (contact.key.a, contact.key.b)
 }
 
 /// How deep two bodies may overlap, m.
@@ -117,7 +121,7 @@ fn displace<S: Space<D, N>, const D: usize, const N: usize>(
     correction.contacts.clear();
     correction.contacts.extend(correction.found.iter().map(|contact| {
         let mut room = [0.0; D];
-        room[0] = contact.gap + 0.5 * allowed(bodies, (contact.key.a, contact.key.b), part);
+        room[0] = contact.gap + 0.5 * allowed(bodies, pair_of(contact), part);
         Localised::new(*contact, S::frame(contact.normal), None, [[0.0; D], room, [0.0; D]])
     }));
     let system = work.systems.get(kind);

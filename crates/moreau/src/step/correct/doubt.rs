@@ -1,6 +1,6 @@
 //! Whether positions need be put right at all: at most steps they need not, and to see that must cost little.
 
-use super::{allowed, way_of};
+use super::{allowed, pair_of, way_of};
 use crate::bodies::Bodies;
 use crate::contacts::Contact;
 use crate::shape::Shape;
@@ -32,8 +32,7 @@ pub(super) fn may_be_too_deep<S: Space<D, N>, const D: usize, const N: usize>(
         let along = |i: usize| since * (0..D).map(|k| contact.normal[k] * bodies.velocity[i][k]).sum::<f64>();
         along(a) - along(b) + turned(bodies, a, since) + turned(bodies, b, since) - contact.gap
     };
-    let doubtful =
-        work.found.iter().filter(|c| nearer(c) > allowed(bodies, (c.key.a, c.key.b), part)).map(|c| (c.key.a, c.key.b));
+    let doubtful = work.found.iter().filter(|c| nearer(c) > allowed(bodies, pair_of(c), part)).map(pair_of);
     let pairs = &mut work.correction.doubtful;
     pairs.clear();
     pairs.extend(doubtful);
