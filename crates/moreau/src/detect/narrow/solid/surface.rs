@@ -112,7 +112,7 @@ pub(super) fn collide<B: Touches>(
     let mut deep = None;
     surface.near(&near, |triangle| query.touch(triangle as usize, &mut found, &mut deep));
     if let (true, Some((_, triangle))) = (found.is_empty(), deep) {
-        query.touch_front(triangle, &mut found);
+        query.touch_front(&query.triangle(triangle), triangle, &mut found);
     }
     thin(&mut found, LEVEL * body.size());
     for &Found { feature, point, normal, gap } in &found {
@@ -161,7 +161,7 @@ impl<B: Touches> Query<'_, B> {
         let in_front = dot(front, sub(position, triangle.corners[0])) > 0.0;
         if flat && in_front {
             found.truncate(first);
-            self.touch_front(number, found);
+            self.touch_front(&triangle, number, found);
         } else if bent && in_front && found.is_empty() {
             let mut gap = f64::INFINITY;
             B::touch_front(there, &triangle, self.reach, &mut |_, _, _, one| gap = gap.min(one));
@@ -182,11 +182,15 @@ impl<B: Touches> Query<'_, B> {
     }
 
     /// Adds the points that the body has along the normal of a triangle.
-    fn touch_front(&self, number: usize, found: &mut Vec<Found>) {
-        let (corners, normal) = (self.surface.corners(number), self.surface.normal(number));
-        let triangle = Triangle::new(corners, normal, nearest(corners, self.there.pose.position));
-        B::touch_front(&self.there, &triangle, self.reach, &mut |own, point, _, gap| {
+    fn touch_front(&self, triangle: &Triangle, number: usize, found: &mut Vec<Found>) {
+        let normal = self.surface.normal(number);
+        B::touch_front(&self.there, triangle, self.reach, &mut |own, point, _, gap| {
             found.push(Found { feature: on_piece(number, own), point, normal, gap });
         });
+    }
+
+    fn triangle(&self, number: usize) -> Triangle {
+        let corners = self.surface.corners(number);
+        Triangle::new(corners, self.surface.normal(number), nearest(corners, self.there.pose.position))
     }
 }

@@ -31,6 +31,7 @@ pub(super) struct Bounds {
     pub(super) second: Vec<u16>,
     /// Of those of the second body, the ones that matter to one of the first.
     pub(super) crossing: Vec<u16>,
+    /// How far each normal of a body goes along the way.
     ways: Vec<f64>,
 }
 
@@ -38,27 +39,25 @@ impl Bounds {
     /// Finds those along whose normals, which lie on the arc between those of their faces, the bodies can be so far apart.
     pub(super) fn find<A: Faceted, B: Faceted>(&mut self, a: &Seen<'_, A>, b: &Seen<'_, B>, apart: f64) {
         let Most { way, inner } = Most::new(a, b);
-        let mut first = std::mem::take(&mut self.first);
-        self.of(a, way, apart + inner, &mut first);
-        self.first = first;
-        let mut second = std::mem::take(&mut self.second);
-        self.of(b, way.map(|x| -x), apart + inner, &mut second);
-        self.second = second;
+        let Self { first, second, ways, .. } = self;
+        likely(a, way, apart + inner, ways, first);
+        likely(b, way.map(|x| -x), apart + inner, ways, second);
     }
+}
 
-    fn of<F: Faceted>(&mut self, body: &Seen<'_, F>, way: [f64; 3], least: f64, found: &mut Vec<u16>) {
-        self.ways.clear();
-        self.ways.extend(body.normals.iter().map(|&normal| dot(normal, way)));
-        let edges = body.body.edges();
-        // Between n and m, of which the larger has w along the way, no unit vector has more than w / cos(α/2) if w is positive, and none more
-        // than w if not; cos² (α/2) = (1 + n·m) / 2.
-        let may = |i: u16| {
-            let [n, m] = edges[usize::from(i)].faces.map(usize::from);
-            let most = self.ways[n].max(self.ways[m]);
-            least <= 0.0 || (most > 0.0 && 2.0 * most * most >= least * least * (1.0 + dot(body.normals[n], body.normals[m])))
-        };
-        keep(0..edges.len() as u16, may, found);
-    }
+/// The edges of a body between the normals of whose faces some unit vector has at least so much along the way.
+fn likely<F: Faceted>(body: &Seen<'_, F>, way: [f64; 3], least: f64, ways: &mut Vec<f64>, found: &mut Vec<u16>) {
+    ways.clear();
+    ways.extend(body.normals.iter().map(|&normal| dot(normal, way)));
+    let edges = body.body.edges();
+    // Between n and m, of which the larger has w along the way, no unit vector has more than w / cos(α/2) if w is positive, and none more
+    // than w if not; cos² (α/2) = (1 + n·m) / 2.
+    let may = |i: u16| {
+        let [n, m] = edges[usize::from(i)].faces.map(usize::from);
+        let most = ways[n].max(ways[m]);
+        least <= 0.0 || (most > 0.0 && 2.0 * most * most >= least * least * (1.0 + dot(body.normals[n], body.normals[m])))
+    };
+    keep(0..edges.len() as u16, may, found);
 }
 
 /// Those of `all` for which something holds. Each is written before it is known and counted after: what is hard to foresee is no branch.
