@@ -108,17 +108,15 @@ fn larger(a: f64, b: f64) -> f64 {
 /// What the three terms of eq. 42 are at one contact.
 #[inline]
 fn eps_glob<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &Vector<D>) -> EpsGlob {
-    if let Cone::Bilateral { .. } = cone {
-        return eps_glob_bilateral(cone, claimed, u, r);
-    }
     let slip = tangent_norm(claimed);
     let held = if cone == Cone::Sticking { slip } else { 0.0 };
     // A contact without friction has no law for its tangent.
     let (power, motion) = match cone {
         Cone::Signorini => (claimed[0] * r[0], (claimed[0] - u[0]).abs()),
         Cone::Coulomb(mu) => (dot(claimed, r) + mu * r[0] * slip, norm(&sub(claimed, u))),
-        Cone::Sticking | Cone::Bilateral { .. } => (dot(claimed, r), norm(&sub(claimed, u))),
+        Cone::Sticking => (dot(claimed, r), norm(&sub(claimed, u))),
         Cone::Rolling { .. } => (dot(&cone.hat(claimed), r), norm(&sub(claimed, u))),
+        Cone::Bilateral { .. } => return eps_glob_bilateral(cone, claimed, u, r),
     };
     EpsGlob { motion, bipotential: power.abs(), penetration: (-claimed[0]).max(0.0) + held }
 }
@@ -130,21 +128,33 @@ fn eps_glob_bilateral<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vecto
     EpsGlob { motion: norm(&sub(&claimed, &u)), bipotential: dot(&claimed, r).abs(), penetration: norm(&claimed) }
 }
 
+/// The components that a bilateral constraint holds. Such constraints are few: kept out of the way of the many contacts.
+#[cold]
+fn held<const D: usize>(cone: Cone, u: &Vector<D>) -> Vector<D> {
+    std::array::from_fn(|i| if cone.binds(i) { u[i] } else { 0.0 })
+}
+
 /// u, or of it what the law speaks of: the normal part without friction, the held components of a bilateral constraint.
 #[inline]
 fn seen<const D: usize>(cone: Cone, u: &Vector<D>) -> Vector<D> {
     match cone {
-        Cone::Signorini | Cone::Bilateral { .. } => std::array::from_fn(|i| if cone.binds(i) { u[i] } else { 0.0 }),
+        Cone::Signorini => std::array::from_fn(|i| if i == 0 { u[0] } else { 0.0 }),
+        Cone::Bilateral { .. } => held(cone, u),
         Cone::Coulomb(_) | Cone::Rolling { .. } | Cone::Sticking => *u,
     }
 }
 
-/// w ‖r − P_K(r − û/w)‖ at one contact. A contact that impulses do not move, w = 0, leaves of it the distance of û to K*.
-#[inline]
+/// w ‖r − P_K(r − û/w)‖ at one contact.
+#[inline(always)]
 fn natural<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
-    if cone == Cone::Signorini && w > 0.0 {
+    if matches!(cone, Cone::Signorini) && w > 0.0 {
         return (w * (r[0] - (r[0] - u[0] / w).max(0.0))).abs();
     }
+    natural_in_cone(cone, w, u, r)
+}
+
+/// The same in any cone. A contact that impulses do not move, w = 0, leaves of it the distance of û to K*.
+fn natural_in_cone<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
     let hat = cone.hat(&seen(cone, u));
     if w > 0.0 { w * norm(&sub(r, &cone.nearest(&axpy(r, -1.0 / w, &hat)))) } else { norm(&cone.nearest(&hat.map(|x| -x))) }
 }
@@ -257,7 +267,7 @@ struct Plain {
 }
 
 impl Plain {
-    #[inline]
+    #[inline(always)]
     fn add<O: Operator<D>, const D: usize>(&mut self, problem: &Problem<'_, O, D>, c: usize, u: &Vector<D>, r: &Vector<D>) {
         let cone = problem.cones[c];
         let error = natural(cone, 1.0, u, r);
