@@ -148,6 +148,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Bodies<S, D, N> {
     }
 
     /// Kinetic and potential energy of body `i`, theory (39): zero if it is not free.
+    #[inline]
     pub fn energy(&self, i: usize, gravity: &[f64; D]) -> [f64; 2] {
         if !self.is_free(i) {
             return [0.0; 2];

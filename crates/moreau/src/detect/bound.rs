@@ -72,9 +72,12 @@ impl<const D: usize> Hold<D> {
     pub(super) fn holds(&self, bound: &Bound<D>, driven: bool) -> bool {
         let room = self.radius - bound.radius;
         let inside = square_between(self.centre, bound.centre) <= room * room && room > 1e-140 && room < 1e140;
-        let unbounded = self.radius == f64::INFINITY && bound.radius == f64::INFINITY;
-        let nowhere = self.radius.is_nan() && bound.is_nowhere();
-        (inside || unbounded || nowhere) && self.driven == driven
+        (inside || self.without_ball(bound)) && self.driven == driven
+    }
+
+    /// Whether the body had no ball and has none, or was nowhere and still is.
+    fn without_ball(&self, bound: &Bound<D>) -> bool {
+        (self.radius == f64::INFINITY && bound.radius == f64::INFINITY) || (self.radius.is_nan() && bound.is_nowhere())
     }
 }
 

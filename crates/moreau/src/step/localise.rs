@@ -100,6 +100,7 @@ fn in_frame<const D: usize, const TURNS: bool>(frame: &[[f64; D]; D], a: &[f64; 
 
 /// A gap below this part of the smaller body counts as closed: the rounding of positions must not open a contact for a step, in
 /// which a body at rest would fall or slip by g h². Positions are rounded relative to their distance from the origin.
+#[inline]
 fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, pair: [usize; 2]) -> f64 {
     let size = pair.iter().filter_map(|&i| bodies.shape[i].bounding_radius()).fold(f64::INFINITY, f64::min);
     let far = pair.iter().flat_map(|&i| bodies.pose[i].position).map(f64::abs).fold(0.0, f64::max);
@@ -108,6 +109,7 @@ fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<
 
 /// How far from body `i` contacts are looked for when nothing moves, m: a part of its size, and rounding. The size of a driven body, which may
 /// be all the ground, says nothing of what comes near.
+#[inline]
 pub(super) fn margins<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, i: usize, part: f64) -> [f64; 2] {
     let radius = bodies.shape[i].bounding_radius().unwrap_or(0.0);
     let far = bodies.pose[i].position.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
@@ -115,12 +117,14 @@ pub(super) fn margins<S: Space<D, N>, const D: usize, const N: usize>(bodies: &B
 }
 
 /// No point of a body of this bounding radius (m) is faster than this at its velocity, m/s.
+#[inline]
 pub(super) fn speed<const D: usize, const N: usize>(radius: f64, v: &[f64; N]) -> f64 {
     let length = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
     length(&v[..D]) + length(&v[D..]) * radius
 }
 
 /// How wrong a gap may be, for bodies of this size this far from the origin.
+#[inline]
 fn rounding(size: f64, far: f64) -> f64 {
     1e-9 * size + 16.0 * f64::EPSILON * far
 }
