@@ -1,5 +1,6 @@
 //! One step of the Moreau-Jean scheme, stage by stage.
 
+mod assemble;
 mod closing;
 mod correct;
 mod failed;

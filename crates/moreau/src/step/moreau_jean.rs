@@ -1,18 +1,14 @@
 //! The step, on one screen: Moreau-Jean time stepping (section 3 of Barboteu & Dumont 2017; Jean 1999).
 
-use super::correct;
 use super::failed::{self, FAILED_KEPT, FailedSolve};
-use super::localise::{Localiser, margins, speed};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
-use super::{Localised, StepError, Workspace, closing, forces, guard, integrate};
-use crate::contacts::{Contact, ContactKey};
-use crate::shape::Shape;
+use super::{StepError, Workspace, assemble, closing, correct, forces, guard, integrate};
 use crate::space::Space;
-use crate::world::{OnBreach, OnFailure, Start, World};
+use crate::world::{OnBreach, OnFailure, World};
 use moreau_solve::files::ProblemFile;
-use moreau_solve::{Acts, Report, Status, tasks};
+use moreau_solve::{Report, Status, tasks};
 use std::ops::Range;
 use std::time::Instant;
 
@@ -100,11 +96,11 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     integrate::predict(&world.bodies, h, theta, &mut work.middle);
     // 4 contacts at q_m, sorted by key
     let clock = Instant::now();
-    detect(world, work, h);
+    assemble::detect(world, work, h);
     record.seconds.detect += clock.elapsed().as_secs_f64();
     // 5-8 last impulses, laws, H, W_ii, q
     let clock = Instant::now();
-    let kind = assemble(world, work, h);
+    let kind = assemble::assemble(world, work, h);
     record.seconds.localise += clock.elapsed().as_secs_f64();
     // 9 impulses
     let clock = Instant::now();
@@ -139,7 +135,7 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     // 11 q⁺ = q_m + h θ v⁺
     let taken = integrate::advance(&mut world.bodies, &work.middle, [&work.free, &work.after], h, theta);
     work.ledger.dissipate(taken);
-    remember(work);
+    assemble::remember(work);
     world.time += h;
     world.schedule.place(&mut world.bodies, world.time);
     check_finite(world)?;
@@ -169,99 +165,6 @@ fn keep_failed<S: Space<D, N>, const D: usize, const N: usize>(
     let problem = work.systems.get(kind).problem(&work.failed.start);
     work.failed.last = Some(FailedSolve { step, problem: problem.map(|problem| ProblemFile { info, ..problem }) });
     work.failed.count += 1;
-}
-
-/// Finds the contacts at the predicted configuration.
-fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, work: &mut Workspace<S, D, N>, h: f64) {
-    let bodies = &world.bodies;
-    let approach = world.laws.iter().any(|law| law.acts() == Acts::Approach);
-    tasks::fill(&mut work.reach, bodies.len(), |i| reach(world, i, &work.free[i], h, approach));
-    work.detector.detect::<S, N>(&bodies.shape, &work.middle, &work.reach, |i| !bodies.is_free(i), &mut work.found);
-    work.joints.part(&world.joints, &mut work.found);
-}
-
-/// How far from body `i` contacts matter. Closed ones: rounding. On approach: what it may travel in the step, doubled for what
-/// other contacts add to its speed, and a part of its size.
-fn reach<S: Space<D, N>, const D: usize, const N: usize>(
-    world: &World<S, D, N>,
-    i: usize,
-    free: &[f64; N],
-    h: f64,
-    approach: bool,
-) -> f64 {
-    let [beside, rounding] = margins(&world.bodies, i, 0.01);
-    if !approach {
-        return rounding;
-    }
-    let radius = world.bodies.shape[i].bounding_radius().unwrap_or(0.0);
-    let fastest = speed::<D, N>(radius, free).max(speed::<D, N>(radius, &world.bodies.velocity[i]));
-    2.0 * h * fastest + beside + rounding
-}
-
-/// Localises the contacts that were found into the system of the coordinates that they need.
-fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
-    world: &World<S, D, N>,
-    work: &mut Workspace<S, D, N>,
-    h: f64,
-) -> Kind {
-    let bodies = &world.bodies;
-    let law = |c: &Contact<D>| world.laws.get(bodies.material[c.key.a as usize], bodies.material[c.key.b as usize]);
-    let round = |body: u32| bodies.shape[body as usize].is_round() || !bodies.is_free(body as usize);
-    let found = &work.found;
-    let all = |holds: &(dyn Fn(&Contact<D>) -> bool + Sync)| {
-        tasks::fold(0..found.len(), &|part: Range<usize>| found[part].iter().all(holds), &|a, b| a && b)
-    };
-    // A driven body that turns moves others along its normals, unless it is round.
-    let turning = |body: u32| {
-        let (i, spins) = (body as usize, |v: &[f64; N]| v[D..] != [0.0; N][D..]);
-        !bodies.is_free(i) && !bodies.shape[i].is_round() && (spins(&bodies.velocity[i]) || spins(&work.free[i]))
-    };
-    let kind = match (all(&|c| law(c).is_frictionless()), all(&|c| round(c.key.a) && round(c.key.b))) {
-        (false, false) => Kind::Full,
-        (true, false) => Kind::Normal,
-        (false, true) => Kind::Round,
-        (true, true) if !all(&|c| !turning(c.key.a) && !turning(c.key.b)) => Kind::Normal,
-        (true, true) => Kind::Central,
-    };
-    let kind = if world.joints.is_empty() { kind } else { Kind::Full };
-    let spins = (kind != Kind::Central).then(|| {
-        work.spins.fill::<S, D, N>(&work.middle, [&bodies.velocity, &work.free]);
-        &work.spins
-    });
-    let localiser = Localiser { world, middle: &work.middle, free: &work.free, spins, h };
-    localiser.each(&work.found, &mut work.contacts);
-    work.joints.localise(world, &work.middle, &work.free, h);
-    if world.settings.start == Start::Warm {
-        recall(&work.previous, &mut work.contacts);
-        work.joints.recall();
-    }
-    work.systems.get(kind).fill(bodies, &work.middle, &work.contacts, &mut work.curve);
-    if kind == Kind::Full {
-        work.systems.full.join(bodies, &work.joints.blocks);
-    }
-    kind
-}
-
-/// Gives contacts the impulses of the step before, as far as they had any. Both lists are sorted by key.
-fn recall<const D: usize>(previous: &[(ContactKey, [f64; D])], contacts: &mut [Localised<D>]) {
-    tasks::parts(contacts, |_, contacts| {
-        let Some(first) = contacts.first() else { return };
-        let mut last = previous[previous.partition_point(|(before, _)| *before < first.contact.key)..].iter().peekable();
-        for contact in contacts {
-            let key = contact.contact.key;
-            while last.next_if(|(before, _)| *before < key).is_some() {}
-            if let Some((_, r)) = last.next_if(|(before, _)| *before == key) {
-                contact.impulse = *r;
-            }
-        }
-    });
-}
-
-/// Keeps the impulses of a step that was taken, for the next to start from.
-fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>) {
-    let contacts = &work.contacts;
-    tasks::fill(&mut work.previous, contacts.len(), |c| (contacts[c].contact.key, contacts[c].impulse));
-    work.joints.remember();
 }
 
 /// Adds a solve to the record of its step; of several, the worst residual counts.

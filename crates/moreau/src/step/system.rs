@@ -4,7 +4,10 @@
 //! equations are the same; only less is stored and read.
 
 mod joints;
+mod kind;
 mod operators;
+
+pub(super) use kind::Kind;
 
 use super::failed::with_guesses;
 use super::workspace::Localised;
@@ -31,19 +34,6 @@ impl<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, c
         let (operator, scratch) = (O::default(), Scratch::default());
         Self { operator, q: Vec::new(), cones: Vec::new(), r: Vec::new(), scratch, space: std::marker::PhantomData }
     }
-}
-
-/// Which coordinates a step needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Some contact has friction, or there are joints.
-    Full,
-    /// None has: normals only.
-    Normal,
-    /// Some contact has friction, and all bodies are round.
-    Round,
-    /// None has, and all bodies are round: normals only, which never turn a body.
-    Central,
 }
 
 /// A system for each kind.
