@@ -43,6 +43,9 @@ pub fn read_text(bytes: &[u8]) -> Result<ProblemFile, FileError> {
     let (rolling, extra) = after_mu(dimension, contacts, tokens.remaining());
     let mu_r = if rolling { Some(tokens.reals(contacts, "mu_r")?) } else { None };
     let mut problem = ProblemFile::new(dimension, equations, mu, mu_r);
+    if tokens.at_end() {
+        problem.notes.push("the file ends with its last number, without a line break: it may have been cut short".to_owned());
+    }
     if extra {
         let token = tokens.next("the token at the end")?;
         problem.notes.push(format!("the token `{}` at the end is ignored", token.chars().take(40).collect::<String>()));

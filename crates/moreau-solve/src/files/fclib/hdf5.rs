@@ -167,7 +167,7 @@ impl Branch {
             i32::try_from(value).map_err(|_| error(&format!("{}/{name}", self.path), format!("{value} needs more than 32 bits")))
         };
         let values = values.map(narrow).collect::<Result<Vec<_>, _>>()?;
-        self.dataset(name).with_i32_data(&values).with_shape(&[values.len() as u64]);
+        checked(self.dataset(name).with_i32_data(&values), values.len());
         Ok(())
     }
 
@@ -176,7 +176,7 @@ impl Branch {
     }
 
     pub(super) fn reals(&mut self, name: &str, values: &[f64]) {
-        self.dataset(name).with_f64_data(values).with_shape(&[values.len() as u64]);
+        checked(self.dataset(name).with_f64_data(values), values.len());
     }
 
     pub(super) fn text(&mut self, name: &str, text: &str) -> Result<(), FileError> {
@@ -188,10 +188,19 @@ impl Branch {
     }
 }
 
-/// The bytes of a file with these groups, in the format of HDF5 1.8.
+/// A list with a checksum, in one chunk: checksums are those of chunks.
+fn checked(dataset: &mut DatasetBuilder, length: usize) {
+    let shape = [length as u64];
+    dataset.with_shape(&shape);
+    if length > 0 {
+        dataset.with_chunks(&shape).with_fletcher32();
+    }
+}
+
+/// The bytes of a file with these groups, in the format of HDF5 1.10, the first in which chunks are indexed with checksums.
 pub(super) fn bytes(branches: Vec<Branch>) -> Result<Vec<u8>, FileError> {
     let mut file = FileBuilder::new();
-    file.with_libver_bounds(LibVer::Earliest, LibVer::V18);
+    file.with_libver_bounds(LibVer::Earliest, LibVer::V110);
     for branch in branches {
         file.add_group(branch.builder.finish());
     }

@@ -14,7 +14,7 @@ fn refused(text: &str) -> String {
 
 #[test]
 fn dense_matrices_are_column_by_column() {
-    let problem = read("2 1  0 2 2  2 2\n 1 2\n 3 4\n  5 6  0.5");
+    let problem = read("2 1  0 2 2  2 2\n 1 2\n 3 4\n  5 6  0.5\n");
     let Equations::Local { w, q } = &problem.equations else { panic!("local") };
     assert_eq!(w.csr().values, [1.0, 3.0, 2.0, 4.0]);
     assert_eq!((&q[..], &problem.mu[..], problem.notes.len()), (&[5.0, 6.0][..], &[0.5][..], 0));
@@ -56,8 +56,14 @@ fn global_problems_are_told_by_what_follows_the_first_matrix() {
 }
 
 #[test]
+fn a_last_number_that_may_be_cut_is_remarked() {
+    let [whole, cut] = ["0.5\n", "0.5"].map(|tail| read(&format!("{HEAD} {tail}")).notes);
+    assert!(whole.is_empty() && cut.len() == 1 && cut[0].contains("cut short"), "{whole:?} {cut:?}");
+}
+
+#[test]
 fn rolling_in_the_plane_is_told_by_the_number_of_tokens() {
-    let plain = read(&format!("{HEAD} 0.5"));
+    let plain = read(&format!("{HEAD} 0.5\n"));
     let extra = read(&format!("{HEAD} 0.5 1"));
     let rolling = read(&format!("{HEAD} 0.5 0.25 1"));
     assert_eq!((&plain.mu_r, &extra.mu_r, &rolling.mu_r), (&None, &None, &Some(vec![0.25])));

@@ -124,6 +124,11 @@ impl<'a> Tokens<'a> {
         (0..count).map(|_| self.integer(name)).collect()
     }
 
+    /// Whether the last token is the end of the file, with nothing behind it that says so.
+    pub(super) fn at_end(&self) -> bool {
+        self.position == self.bytes.len()
+    }
+
     /// How many tokens are left; reads on to the end to find out.
     pub(super) fn remaining(&self) -> usize {
         self.bytes[self.position..].split(u8::is_ascii_whitespace).filter(|token| !token.is_empty()).count()
