@@ -1,6 +1,9 @@
-//! Files of a run with flipped bits and cut ends: each is refused with a message, or read as it was written. Never a panic, never other numbers.
+//! Files with flipped bits and cut ends. Those of a run are refused with a message, or read as they were written: never a panic, never other
+//! numbers. Meshes are refused, or read as sound ones.
 
 use moreau::checkpoint::{self, Checkpoints};
+use moreau::mesh::compas::Assembly;
+use moreau::mesh::{Closed, Mesh, MeshError};
 use moreau::observe::{Observer, TrajectoryOutput};
 use moreau::run::{Task, run};
 use moreau::scene::{AnyWorld, Scene};
@@ -35,24 +38,30 @@ fn made(folder: &Path) -> [PathBuf; 2] {
     [path, folder.join("checkpoint-000000000060.bin")]
 }
 
-/// Reads a file 200 times with a bit flipped and 200 times with its end cut off; `read` gives what is in it, or a message. Says how many
-/// were refused.
+/// The bytes 200 times with a bit flipped and 200 times cut off, each with the place, and whether it is cut there.
+fn damages(whole: &[u8]) -> impl Iterator<Item = (Vec<u8>, usize, bool)> {
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
+    (0..400).map(move |case| {
+        let (mut bytes, cut) = (whole.to_vec(), case % 2 == 1);
+        let at = (random.next_u64() % bytes.len() as u64) as usize;
+        if cut {
+            bytes.truncate(at);
+        } else {
+            bytes[at] ^= 1 << (random.next_u64() % 8);
+        }
+        (bytes, at, cut)
+    })
+}
+
+/// Reads a file damaged in 400 ways; `read` gives what is in it, or a message. Says how many were refused.
 fn damaged<T: PartialEq>(path: &Path, read: impl Fn(&Path) -> Result<T, String>) -> usize {
     let whole = std::fs::read(path).unwrap();
     let right = read(path).unwrap();
-    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
     let mut refused = 0;
-    for case in 0..400 {
-        let mut bytes = whole.clone();
-        let at = (random.next_u64() % bytes.len() as u64) as usize;
-        if case % 2 == 0 {
-            bytes[at] ^= 1 << (random.next_u64() % 8);
-        } else {
-            bytes.truncate(at);
-        }
+    for (bytes, at, cut) in damages(&whole) {
         std::fs::write(path, &bytes).unwrap();
         match read(path) {
-            Ok(content) => assert!(content == right, "case {case} at byte {at} of {} is read as something else", whole.len()),
+            Ok(content) => assert!(content == right, "byte {at} of {}, cut {cut}: read as something else", whole.len()),
             Err(message) => {
                 assert!(!message.is_empty());
                 refused += 1;
@@ -83,4 +92,73 @@ fn a_damaged_trajectory_is_refused_or_read_as_it_was() {
     };
     let refused = damaged(&path, all);
     assert!(refused > 200, "{refused}");
+}
+
+/// Triangles of a tetrahedron of odd corners, seen from outside.
+const TETRAHEDRON: [[[f32; 3]; 3]; 4] = {
+    let [o, x, y, z] = [[0.125, 0.25, -0.5], [1.75, 0.125, 0.0625], [0.375, 2.25, 0.125], [0.25, 0.5, 1.625]];
+    [[o, y, x], [o, x, z], [x, y, z], [o, z, y]]
+};
+
+fn stl_binary() -> Vec<u8> {
+    let mut bytes = vec![b' '; 80];
+    bytes.extend(4_u32.to_le_bytes());
+    for triangle in TETRAHEDRON {
+        bytes.extend([0; 12]);
+        bytes.extend(triangle.iter().flatten().flat_map(|x| x.to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+fn stl_text() -> Vec<u8> {
+    let facet = |t: [[f32; 3]; 3]| {
+        let corners: String = t.iter().map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).collect();
+        format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    };
+    format!("solid t\n{}endsolid t\n", TETRAHEDRON.map(facet).concat()).into_bytes()
+}
+
+fn obj() -> Vec<u8> {
+    let corners = [0, 1, 2].map(|k| TETRAHEDRON[2][k]).into_iter().chain([TETRAHEDRON[0][0]]);
+    let points: String = corners.map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
+    format!("{points}f 4 2 1\nf 4 1 3\nf 1 2 3\nf 4 3 2\n").into_bytes()
+}
+
+fn compas() -> Vec<u8> {
+    let block = r#"{"vertex": {"0": {"x": 0.5, "y": 0, "z": 0}, "1": {"x": 1.5, "y": 0, "z": 0}, "2": {"x": 0, "y": 1, "z": 0},
+        "3": {"x": 0, "y": 0, "z": 1}}, "face": {"0": [0, 2, 1], "1": [0, 1, 3], "2": [1, 2, 3], "3": [0, 3, 2]}}"#;
+    format!(r#"{{"assembly": {{"vertex": {{"0": {{"is_support": true}}}}, "edge": {{"0": {{}}}}}}, "blocks": {{"0": {block}}}}}"#)
+        .into_bytes()
+}
+
+/// Meshes have no checksum: a flipped digit is another number. But what is read is a body with a volume, and a cut end is found.
+#[test]
+fn a_damaged_mesh_is_refused_or_closed_and_cuts_are_found() {
+    let closed = |mesh: Result<Mesh, MeshError>| mesh.and_then(Mesh::closed).map(|closed| vec![closed]);
+    let of_blocks = |assembly: Assembly| assembly.blocks.iter().map(|block| block.mesh.triangulated().closed()).collect();
+    let stl = |bytes: &[u8]| closed(Mesh::from_stl(bytes, "damaged.stl"));
+    let kinds: [(Vec<u8>, &dyn Fn(&[u8]) -> Result<Vec<Closed>, MeshError>); 4] = [
+        (stl_binary(), &stl),
+        (stl_text(), &stl),
+        (obj(), &|bytes| closed(Mesh::from_obj(bytes, "damaged.obj"))),
+        (compas(), &|bytes| Assembly::from_json(bytes, "damaged.json").and_then(of_blocks)),
+    ];
+    for (kind, (whole, read)) in kinds.into_iter().enumerate() {
+        let right = read(&whole).unwrap();
+        let mut refused = 0;
+        for (bytes, at, cut) in damages(&whole) {
+            match read(&bytes) {
+                Ok(bodies) => {
+                    assert!(!cut || bodies == right, "kind {kind}: cut at byte {at}, and read as something else");
+                    assert!(bodies.iter().all(|body| body.mass().volume > 0.0), "kind {kind}, byte {at}");
+                }
+                Err(error) => {
+                    assert!(!error.to_string().is_empty());
+                    refused += 1;
+                }
+            }
+        }
+        assert!(refused > 250, "kind {kind}: {refused}");
+    }
 }
