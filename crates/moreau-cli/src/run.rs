@@ -8,7 +8,7 @@ mod words;
 use crate::failure::{Failure, say, write_whole};
 use crate::view::{self, Pace};
 use crate::{progress, scene};
-use folder::{claim, observers, prepare};
+use folder::{claim, hold, observers, prepare};
 use moreau::checkpoint::{Checkpoint, Checkpoints};
 use moreau::io::whole;
 use moreau::observe::{Observer, Summary};
@@ -59,6 +59,8 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut sets = args.sets.clone();
     sets.extend(args.steps.map(|steps| format!("time.steps={steps}")));
+    // Before its checkpoint is read: another run may be about to write the next.
+    let _held = args.resume.as_deref().map(hold).transpose()?;
     let (scene, folder, from) = match (&args.scene, &args.resume) {
         (_, Some(folder)) => {
             let (scene, checkpoint) = resume::load(folder, sets)?;
@@ -93,6 +95,8 @@ struct Ready<'a, S: Space<D, N>, const D: usize, const N: usize> {
     observers: Vec<Box<dyn Observer<S, D, N> + 'a>>,
     /// What was done before.
     before: Summary,
+    /// The scene as it is kept.
+    text: String,
 }
 
 /// Puts the world and the files where the run begins or goes on.
@@ -104,7 +108,7 @@ fn begin<S: Space<D, N>, const D: usize, const N: usize>(
     from: Option<&Checkpoint>,
 ) -> Result<(), Failure> {
     let (mut work, mut before) = (Workspace::default(), Summary::default());
-    let _claim = claim(folder)?;
+    let _claim = if from.is_none() { claim(folder)? } else { None };
     if let Some(checkpoint) = from {
         checkpoint.restore(&mut world, &mut work).map_err(Failure::scene)?;
         before = checkpoint.summary.clone();
@@ -115,8 +119,9 @@ fn begin<S: Space<D, N>, const D: usize, const N: usize>(
     whole::sweep(&folder.join("vtk"));
     let marks = from.map(|checkpoint| (checkpoint.steps(), checkpoint.marks.as_slice()));
     let observers = observers(scene, &world, folder, marks)?;
-    write_whole(&folder.join("scene.toml"), scene.to_toml())?;
-    go(args, scene, Ready { world, work, observers, before }, folder)
+    let text = scene.to_toml();
+    write_whole(&folder.join("scene.toml"), &text)?;
+    go(args, scene, Ready { world, work, observers, before, text }, folder)
 }
 
 /// Computes, and shows what is computed if that is asked for.
@@ -152,8 +157,8 @@ fn compute<S: Space<D, N>, const D: usize, const N: usize>(
     folder: &Path,
     (stop, pace): (&'static AtomicBool, &Pace),
 ) -> Result<(), Failure> {
-    let Ready { mut world, mut work, mut observers, before } = ready;
-    let (settings, text) = (world.settings, scene.to_toml());
+    let Ready { mut world, mut work, mut observers, before, text } = ready;
+    let settings = world.settings;
     let checkpoints = Checkpoints::new(folder, scene.checkpoint.every, scene.checkpoint.seconds);
     let (first, steps) = (world.steps, scene.time.steps.saturating_sub(world.steps));
     let task = Task { steps, before, kept: Some((&text, checkpoints)) };

@@ -132,13 +132,16 @@ fn compas() -> Vec<u8> {
         .into_bytes()
 }
 
+/// Who reads the bytes of one kind of mesh.
+type Reader<'a> = &'a dyn Fn(&[u8]) -> Result<Vec<Closed>, MeshError>;
+
 /// Meshes have no checksum: a flipped digit is another number. But what is read is a body with a volume, and a cut end is found.
 #[test]
 fn a_damaged_mesh_is_refused_or_closed_and_cuts_are_found() {
     let closed = |mesh: Result<Mesh, MeshError>| mesh.and_then(Mesh::closed).map(|closed| vec![closed]);
     let of_blocks = |assembly: Assembly| assembly.blocks.iter().map(|block| block.mesh.triangulated().closed()).collect();
     let stl = |bytes: &[u8]| closed(Mesh::from_stl(bytes, "damaged.stl"));
-    let kinds: [(Vec<u8>, &dyn Fn(&[u8]) -> Result<Vec<Closed>, MeshError>); 4] = [
+    let kinds: [(Vec<u8>, Reader<'_>); 4] = [
         (stl_binary(), &stl),
         (stl_text(), &stl),
         (obj(), &|bytes| closed(Mesh::from_obj(bytes, "damaged.obj"))),

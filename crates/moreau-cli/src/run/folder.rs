@@ -10,10 +10,15 @@ use moreau::world::{OnFailure, World};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
-/// Makes the folder, and sure that no other run is at work in it until what this gives is dropped. (Where a system knows no such thing, nobody
-/// looks.)
+/// Makes the folder and claims it; see [`hold`].
 pub(super) fn claim(folder: &Path) -> Result<Option<File>, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
+    hold(folder)
+}
+
+/// Makes sure that no other run is at work in a folder until what this gives is dropped. (Where there is no such folder, or a system knows no
+/// such thing, nobody looks.)
+pub(super) fn hold(folder: &Path) -> Result<Option<File>, Failure> {
     let Ok(handle) = File::open(folder) else { return Ok(None) };
     match handle.try_lock() {
         Err(TryLockError::WouldBlock) => Err(wrong(folder, &"another run is at work there")),

@@ -55,8 +55,25 @@ pub fn write_to_disk(path: &Path, parts: &[&[u8]]) -> io::Result<()> {
     let file = filled(path, parts)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|refused| refused.error)?;
-    // The name is the folder's; not every system opens folders.
-    if cfg!(unix) { File::open(folder(path))?.sync_all() } else { Ok(()) }
+    names_to_disk(folder(path))
+}
+
+/// Brings what was written of a file to the disk.
+///
+/// # Errors
+/// Where the system refuses, or the file is not there.
+pub fn to_disk(path: &Path) -> io::Result<()> {
+    // Not every system syncs a file that is open for reading.
+    File::options().append(true).open(path)?.sync_all()
+}
+
+/// Brings the names of the files in a folder to the disk.
+///
+/// # Errors
+/// Where the system refuses, or the folder is not there.
+pub fn names_to_disk(folder: &Path) -> io::Result<()> {
+    // Not every system opens folders.
+    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }
 
 fn filled(path: &Path, parts: &[&[u8]]) -> io::Result<NamedTempFile> {

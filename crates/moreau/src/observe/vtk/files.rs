@@ -2,6 +2,7 @@
 
 use super::snapshot::Snapshot;
 use crate::io::vtk::{PolyData, Series, Writer};
+use crate::io::whole;
 use crate::observe::{OutputError, background};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -58,6 +59,15 @@ impl background::Writer<Snapshot> for Files {
         self.shapes.save()?;
         self.interfaces.save()
     }
+
+    fn sync(&mut self) -> Result<(), OutputError> {
+        self.catch_up()?;
+        for kind in [&mut self.bodies, &mut self.contacts, &mut self.shapes, &mut self.interfaces] {
+            kind.keep()?;
+        }
+        let folder = &self.bodies.folder;
+        whole::names_to_disk(folder).map_err(OutputError::io(folder))
+    }
 }
 
 /// The files `NAME_STEP.vtp` and the collection `NAME.pvd`.
@@ -67,14 +77,16 @@ struct Kind {
     name: &'static str,
     writer: Writer,
     series: Series,
-    /// How many frames the collection on disk names.
+    /// How many frames the collection names that is saved.
     saved: usize,
+    /// Files of which nobody knows yet that they are on the disk.
+    new: Vec<PathBuf>,
 }
 
 impl Kind {
     fn new(folder: &Path, name: &'static str) -> Self {
         let series = Series::new(folder.join(name).with_extension("pvd"));
-        Self { folder: folder.to_owned(), name, writer: Writer::default(), series, saved: 0 }
+        Self { folder: folder.to_owned(), name, writer: Writer::default(), series, saved: 0, new: Vec::new() }
     }
 
     fn resume(folder: &Path, name: &'static str, last: u64) -> Result<Self, OutputError> {
@@ -95,7 +107,9 @@ impl Kind {
 
     fn write(&mut self, step: u64, data: &PolyData) -> Result<(), OutputError> {
         let file = format!("{}_{step:08}.vtp", self.name);
-        self.writer.write(&self.folder.join(&file), data)?;
+        let path = self.folder.join(&file);
+        self.writer.write(&path, data)?;
+        self.new.push(path);
         Ok(self.series.push(data.time, &file)?)
     }
 
@@ -106,5 +120,13 @@ impl Kind {
             self.saved = self.series.len();
         }
         Ok(())
+    }
+
+    /// Brings the frames since the last time, and the collection, to the disk.
+    fn keep(&mut self) -> Result<(), OutputError> {
+        if !self.new.is_empty() {
+            self.new.push(self.series.path().to_owned());
+        }
+        self.new.drain(..).try_for_each(|path| whole::to_disk(&path).map_err(OutputError::io(&path)))
     }
 }
