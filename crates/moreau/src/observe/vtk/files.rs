@@ -4,6 +4,7 @@ use super::snapshot::Snapshot;
 use crate::io::vtk::{PolyData, Series, Writer};
 use crate::io::whole;
 use crate::observe::{OutputError, background};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -122,11 +123,14 @@ impl Kind {
         Ok(())
     }
 
-    /// Brings the frames since the last time, and the collection, to the disk.
+    /// Brings the frames since the last time, and the collection, to the disk; those that somebody has taken away meanwhile are not missed.
     fn keep(&mut self) -> Result<(), OutputError> {
         if !self.new.is_empty() {
             self.new.push(self.series.path().to_owned());
         }
-        self.new.drain(..).try_for_each(|path| whole::to_disk(&path).map_err(OutputError::io(&path)))
+        self.new.drain(..).try_for_each(|path| match whole::to_disk(&path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(OutputError::io(&path)(error)),
+            _ => Ok(()),
+        })
     }
 }
