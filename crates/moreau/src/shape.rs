@@ -43,7 +43,7 @@ macro_rules! shapes {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::is_convex(shape),)+ }
             }
 
-            fn parts(&self) -> Vec<(Self, crate::space::Pose<<$Space as Space<$D, $N>>::Rotation, $D>)> {
+            fn parts(&self) -> &[crate::shape::Part<Self, <$Space as Space<$D, $N>>::Rotation, $D>] {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::parts(shape),)+ }
             }
 
@@ -89,6 +89,17 @@ pub use solid::SolidShape;
 /// Something and where it is.
 pub type Placed<'a, T, R, const D: usize> = (&'a T, &'a Pose<R, D>);
 
+/// A part of a body of several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part<T, R, const D: usize> {
+    /// Its form: bounded, and of one piece.
+    pub shape: T,
+    /// Where it is in the frame of the body.
+    pub pose: Pose<R, D>,
+    /// Radius of the ball (in the plane: the disk) around its own centre of mass that holds it, m.
+    pub radius: f64,
+}
+
 /// What one shape says of itself: all that a new one writes down, besides its row and its pairs.
 pub trait Figure<S: Space<D, N>, const D: usize, const N: usize> {
     /// See [`Shape::bounding_radius`].
@@ -110,8 +121,8 @@ pub trait Figure<S: Space<D, N>, const D: usize, const N: usize> {
     }
 
     /// See [`Shape::parts`].
-    fn parts(&self) -> Vec<(S::Shape, Pose<S::Rotation, D>)> {
-        Vec::new()
+    fn parts(&self) -> &[Part<S::Shape, S::Rotation, D>] {
+        &[]
     }
 
     /// See [`Shape::polygons`].
@@ -141,8 +152,8 @@ where
     /// Whether the straight way between any two of its points lies inside; of a compound it is not asked.
     fn is_convex(&self) -> bool;
 
-    /// The shapes that it is made of, each in its place in the body's frame; none where it is of one piece.
-    fn parts(&self) -> Vec<(Self, Pose<S::Rotation, D>)>;
+    /// The shapes that it is made of; none where it is of one piece.
+    fn parts(&self) -> &[Part<Self, S::Rotation, D>];
 
     /// Its boundary as polygons, to be drawn: those of a bounded shape enclose it, or nearly where it is curved; an unbounded one may have
     /// none.

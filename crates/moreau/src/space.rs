@@ -31,6 +31,16 @@ pub struct Pose<R, const D: usize> {
     pub rotation: R,
 }
 
+/// A place that is given in the frame of another, in the world of that.
+#[inline]
+pub(crate) fn placed<S: Space<D, N>, const D: usize, const N: usize>(
+    frame: &Pose<S::Rotation, D>,
+    inner: &Pose<S::Rotation, D>,
+) -> Pose<S::Rotation, D> {
+    let offset = S::rotate(frame.rotation, inner.position);
+    Pose { position: std::array::from_fn(|k| frame.position[k] + offset[k]), rotation: S::within(frame.rotation, inner.rotation) }
+}
+
 /// The kinematics of one dimension: `Plane` is `Space<2, 3>`, `Solid` is `Space<3, 6>`.
 pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     /// Orientation: a unit complex number in the plane, a unit quaternion in space.
@@ -46,6 +56,9 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
 
     /// Turns a vector of the world's frame into the body's.
     fn unrotate(rotation: Self::Rotation, v: [f64; D]) -> [f64; D];
+
+    /// An orientation in a frame that is itself turned, as the world sees it.
+    fn within(frame: Self::Rotation, rotation: Self::Rotation) -> Self::Rotation;
 
     /// The orientation after turning for the time `h` with the spin of `velocity` (Cayley map, normalised).
     fn turn(rotation: Self::Rotation, velocity: &[f64; N], h: f64) -> Self::Rotation;

@@ -5,13 +5,12 @@
 //! used, in a fixed order, so that the same poses give the same bits on every machine.
 
 /// Writes a dimension's table of pairs and its dispatch. A row `A, B => file;` stands for both orders: `file::collide` gets the
-/// bodies in the order of the row. The last row, `(parts of C) => file;`, stands for a body of several parts against any other:
-/// `file::collide` asks the table again for each part, and hands over what it finds through a `dyn FnMut`, without which there would
-/// be no end of types.
+/// bodies in the order of the row. The last row, `(parts of C);`, stands for a body of several parts against any other
+/// ([`compound::collide`]).
 macro_rules! pairs {
     ($Shape:ident in $Space:ident<$D:literal, $N:literal>:
         $($A:ident, $B:ident => $file:ident;)+
-        $((parts of $C:ident) => $parts:ident;)?
+        $((parts of $C:ident);)?
     ) => {
         /// Whether the table has a row for these two.
         #[allow(unreachable_patterns, reason = "a pair of two alike is its own reverse")]
@@ -41,7 +40,9 @@ macro_rules! pairs {
                     let mut flipped = |feature, point, n: [f64; $D], gap| emit(feature, point, n.map(|x| -x), gap);
                     $file::collide((a, pose_b), (b, pose_a), reach, &mut flipped);
                 })+
-                $(($Shape::$C(_), _) | (_, $Shape::$C(_)) => $parts::collide((a, pose_a), (b, pose_b), reach, emit),)?
+                $(($Shape::$C(_), _) | (_, $Shape::$C(_)) => {
+                    crate::detect::narrow::compound::collide::<$Space, $D, $N>((a, pose_a), (b, pose_b), reach, emit);
+                })?
                 _ => {}
             }
         }
@@ -49,6 +50,7 @@ macro_rules! pairs {
 }
 
 mod common;
+mod compound;
 pub(crate) mod plane;
 pub(crate) mod solid;
 pub(crate) mod vector;

@@ -52,7 +52,7 @@ impl<const D: usize> Pieces<D> {
                 Piece::Facets(facets)
             }
         };
-        let mut pieces: Vec<_> = shape.parts().iter().map(|(part, place)| piece(part, place)).collect();
+        let mut pieces: Vec<_> = shape.parts().iter().map(|part| piece(&part.shape, &part.pose)).collect();
         if pieces.is_empty() {
             pieces.push(piece(shape, &Pose { position: [0.0; D], rotation: S::IDENTITY }));
         }

@@ -11,7 +11,6 @@ mod polyline;
 
 pub use boundary::Side;
 pub use capsule::Capsule;
-pub(crate) use compound::placed;
 pub use compound::{Compound, Part};
 pub use decompose::decompose;
 pub use disk::Disk;

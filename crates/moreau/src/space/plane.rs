@@ -22,6 +22,11 @@ impl Space<2, 3> for Plane {
     }
 
     #[inline]
+    fn within(frame: [f64; 2], rotation: [f64; 2]) -> [f64; 2] {
+        Self::rotate(frame, rotation)
+    }
+
+    #[inline]
     fn unrotate([c, s]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
         [c * x + s * y, c * y - s * x]
     }

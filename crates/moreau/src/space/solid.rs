@@ -27,6 +27,11 @@ impl Space<3, 6> for Solid {
     }
 
     #[inline]
+    fn within(frame: DQuat, rotation: DQuat) -> DQuat {
+        frame * rotation
+    }
+
+    #[inline]
     fn unrotate(rotation: DQuat, v: [f64; 3]) -> [f64; 3] {
         (rotation.conjugate() * DVec3::from(v)).into()
     }

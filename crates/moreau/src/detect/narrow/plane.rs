@@ -2,7 +2,6 @@
 
 mod capsule_disk;
 mod capsule_half_plane;
-mod compound;
 mod core;
 mod disk_disk;
 mod disk_half_plane;
@@ -31,7 +30,7 @@ pairs! {
     Polyline, Disk => polyline;
     Polyline, Polygon => polyline;
     Polyline, Capsule => polyline;
-    (parts of Compound) => compound;
+    (parts of Compound);
 }
 
 #[cfg(test)]

@@ -11,7 +11,6 @@ mod capsule_ball;
 mod capsule_capsule;
 mod capsule_facets;
 mod capsule_half_space;
-mod compound;
 mod curved;
 mod cylinder_ball;
 mod cylinder_capsule;
@@ -57,7 +56,7 @@ pairs! {
     Surface, Polyhedron => surface;
     Surface, Capsule => surface;
     Surface, Cylinder => surface;
-    (parts of Compound) => compound;
+    (parts of Compound);
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use super::PlaneShape;
 use super::boundary::dot;
-use crate::shape::{Figure, Polygons, Shape, ShapeError};
-use crate::space::{Plane, Pose, Space};
+use crate::shape::{self, Figure, Polygons, Shape, ShapeError};
+use crate::space::{Plane, Pose, placed};
 use std::sync::Arc;
 
 /// The most parts that there can be: their numbers have ten bits in the feature of a contact.
@@ -18,16 +18,8 @@ pub struct Compound {
     bounding_radius: f64,
 }
 
-/// One part of a compound.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Part {
-    /// Its shape: a disk, a capsule or a polygon.
-    pub shape: PlaneShape,
-    /// Where its own centre of mass is in the body's frame, and how it is turned there.
-    pub pose: Pose<[f64; 2], 2>,
-    /// Radius of the disk around its centre of mass that holds it, m.
-    pub radius: f64,
-}
+/// One part of a compound: a disk, a capsule or a polygon.
+pub type Part = shape::Part<PlaneShape, [f64; 2], 2>;
 
 impl Compound {
     /// The compound of these shapes, each in its place, and its centre of mass in the same coordinates. Of a compound among them the
@@ -37,7 +29,9 @@ impl Compound {
         for (part, (shape, pose)) in shapes.into_iter().enumerate() {
             match (shape.bounding_radius(), &shape) {
                 (_, PlaneShape::Compound(inner)) => {
-                    parts.extend(inner.parts.iter().map(|part| Part { pose: placed(&pose, &part.pose), ..part.clone() }));
+                    parts.extend(
+                        inner.parts.iter().map(|part| Part { pose: placed::<Plane, 2, 3>(&pose, &part.pose), ..part.clone() }),
+                    );
                 }
                 (Some(radius), _) => parts.push(Part { shape, pose, radius }),
                 (None, _) => return Err(ShapeError::NotAPart { part, name: shape.name() }),
@@ -74,24 +68,14 @@ impl Compound {
     }
 }
 
-/// A place that is given in the frame of another, in the world of that.
-#[inline]
-pub(crate) fn placed(outer: &Pose<[f64; 2], 2>, inner: &Pose<[f64; 2], 2>) -> Pose<[f64; 2], 2> {
-    let offset = Plane::rotate(outer.rotation, inner.position);
-    Pose {
-        position: std::array::from_fn(|k| outer.position[k] + offset[k]),
-        rotation: Plane::rotate(outer.rotation, inner.rotation),
-    }
-}
-
 impl Figure<Plane, 2, 3> for Compound {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.bounding_radius)
     }
 
-    fn parts(&self) -> Vec<(PlaneShape, Pose<[f64; 2], 2>)> {
-        self.parts.iter().map(|part| (part.shape.clone(), part.pose)).collect()
+    fn parts(&self) -> &[Part] {
+        &self.parts
     }
 
     fn polygons(&self) -> Polygons<2> {

@@ -2,7 +2,7 @@
 
 use super::SolidShape;
 use super::inertia::Moments;
-use crate::shape::{Figure, Polygons, Shape, ShapeError};
+use crate::shape::{self, Figure, Polygons, Shape, ShapeError};
 use crate::space::{Pose, Solid};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
@@ -19,15 +19,7 @@ pub struct Compound {
 }
 
 /// A part of a compound.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Part {
-    /// Its form: bounded, and not of parts itself.
-    pub shape: SolidShape,
-    /// Where it is in the frame of the body.
-    pub pose: Pose<DQuat, 3>,
-    /// Radius of the ball around its own centre that holds it, m.
-    pub radius: f64,
-}
+pub type Part = shape::Part<SolidShape, DQuat, 3>;
 
 impl Compound {
     /// The most parts that one may have: features of contacts number them with 10 bits.
@@ -88,8 +80,8 @@ impl Figure<Solid, 3, 6> for Compound {
         false
     }
 
-    fn parts(&self) -> Vec<(SolidShape, Pose<DQuat, 3>)> {
-        self.parts.iter().map(|part| (part.shape.clone(), part.pose)).collect()
+    fn parts(&self) -> &[Part] {
+        &self.parts
     }
 
     /// Those of all parts, also where they lie inside others.

@@ -2,7 +2,8 @@
 
 use super::outlines::{assert_steady, contacts};
 use super::*;
-use crate::shape::plane::{Capsule, Compound, Polyline, placed};
+use crate::shape::plane::{Capsule, Compound, Polyline};
+use crate::space::{Plane, placed};
 use proptest::prelude::*;
 
 fn turned(angle: f64) -> [f64; 2] {
@@ -63,10 +64,10 @@ proptest! {
             let reversed = contacts(&other, &place, &thing().into(), &pose, reach);
             let mut expected = Vec::new();
             for (number, part) in (0..).zip(thing().parts()) {
-                let spot = placed(&pose, &part.pose);
+                let spot = placed::<Plane, 2, 3>(&pose, &part.pose);
                 match &other {
                     PlaneShape::Compound(second) => for (last, theirs) in (0..).zip(second.parts()) {
-                        let all = contacts(&part.shape, &spot, &theirs.shape, &placed(&place, &theirs.pose), reach);
+                        let all = contacts(&part.shape, &spot, &theirs.shape, &placed::<Plane, 2, 3>(&place, &theirs.pose), reach);
                         expected.extend(all.into_iter().map(|(f, p, n, g)| ((last << 54) | (number << 44) | f, p, n, g)));
                     },
                     _ => {
