@@ -41,3 +41,6 @@ shapes! {
     HalfSpace, "half_space", "all that lies below a plane: ground or wall, fixed or driven";
     Surface, "mesh", "a surface of triangles, from a file, in place or over a grid of heights; fixed or driven";
 }
+
+// Bodies are read by the million, most of them balls: what is larger than a box stands behind an `Arc`.
+const _: () = assert!(size_of::<SolidShape>() <= 32);

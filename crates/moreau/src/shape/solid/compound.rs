@@ -7,10 +7,14 @@ use crate::space::{Pose, Solid};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
-/// A body of several parts, around its centre of mass, turned into its principal axes. Copies share one list of parts.
+/// A body of several parts, around its centre of mass, turned into its principal axes. Copies share what they are made of, and hold no more of
+/// it than a place: all bodies have the size of the largest shape.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Compound {
-    parts: Arc<[Part]>,
+pub struct Compound(Arc<Form>);
+
+#[derive(Debug, PartialEq)]
+struct Form {
+    parts: Vec<Part>,
     radius: f64,
     /// m³.
     volume: f64,
@@ -56,24 +60,24 @@ impl Compound {
             Some(radius) if shape.is_convex() => Ok(Part { shape, pose: inside(pose), radius }),
             _ => Err(ShapeError::NotAPart { part: index, name: shape.name() }),
         };
-        let parts = parts.into_iter().enumerate().map(part).collect::<Result<Arc<[Part]>, _>>()?;
+        let parts = parts.into_iter().enumerate().map(part).collect::<Result<Vec<_>, _>>()?;
         let reach = |part: &Part| DVec3::from(part.pose.position).length() + part.radius;
         let radius = parts.iter().map(reach).fold(0.0, f64::max);
         let own = Pose { position: mass.centre, rotation };
-        Ok((Self { parts, radius, volume: mass.volume, moments }, own))
+        Ok((Self(Arc::new(Form { parts, radius, volume: mass.volume, moments })), own))
     }
 
     /// Its parts.
     #[inline]
     pub fn parts(&self) -> &[Part] {
-        &self.parts
+        &self.0.parts
     }
 }
 
 impl Figure<Solid, 3, 6> for Compound {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
-        Some(self.radius)
+        Some(self.0.radius)
     }
 
     fn is_convex(&self) -> bool {
@@ -81,18 +85,18 @@ impl Figure<Solid, 3, 6> for Compound {
     }
 
     fn parts(&self) -> &[Part] {
-        &self.parts
+        &self.0.parts
     }
 
     /// Those of all parts, also where they lie inside others.
     fn polygons(&self) -> Polygons<3> {
         let mut all = Polygons::default();
-        self.parts.iter().for_each(|part| all.add::<Solid, 6>(&part.shape.polygons(), &part.pose));
+        self.0.parts.iter().for_each(|part| all.add::<Solid, 6>(&part.shape.polygons(), &part.pose));
         all
     }
 
     fn mass(&self, density: f64) -> [f64; 6] {
-        let (mass, [i, j, k]) = (density * self.volume, self.moments.map(|moment| density * moment));
+        let (mass, [i, j, k]) = (density * self.0.volume, self.0.moments.map(|moment| density * moment));
         [mass, mass, mass, i, j, k]
     }
 }
