@@ -47,6 +47,10 @@ macro_rules! shapes {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::parts(shape),)+ }
             }
 
+            fn contour(&self, at: [f64; $D], outward: [f64; $D], piece: usize) -> Contour<$D> {
+                match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::contour(shape, at, outward, piece),)+ }
+            }
+
             fn polygons(&self) -> Polygons<$D> {
                 match self { $(Self::$Row(shape) => Figure::<$Space, $D, $N>::polygons(shape),)+ }
             }
@@ -76,11 +80,14 @@ macro_rules! shapes {
     };
 }
 
+mod contour;
 mod error;
 pub mod plane;
 mod polygons;
 pub mod solid;
 
+pub use contour::Contour;
+pub(crate) use contour::{SAME, is_same};
 pub use error::ShapeError;
 pub use plane::PlaneShape;
 pub use polygons::Polygons;
@@ -125,6 +132,9 @@ pub trait Figure<S: Space<D, N>, const D: usize, const N: usize> {
         &[]
     }
 
+    /// See [`Shape::contour`].
+    fn contour(&self, at: [f64; D], outward: [f64; D], piece: usize) -> Contour<D>;
+
     /// See [`Shape::polygons`].
     fn polygons(&self) -> Polygons<D> {
         Polygons::default()
@@ -154,6 +164,10 @@ where
 
     /// The shapes that it is made of; none where it is of one piece.
     fn parts(&self) -> &[Part<Self, S::Rotation, D>];
+
+    /// What its surface is like near the point `at` of it, where a contact has the normal `outward` (both in the body's frame); `piece` is the
+    /// number of the triangle or segment, of a shape of many. A shape of several parts is not asked, its part is.
+    fn contour(&self, at: [f64; D], outward: [f64; D], piece: usize) -> Contour<D>;
 
     /// Its boundary as polygons, to be drawn: those of a bounded shape enclose it, or nearly where it is curved; an unbounded one may have
     /// none.

@@ -18,7 +18,7 @@ pub use half_plane::HalfPlane;
 pub use polygon::Polygon;
 pub use polyline::{Bend, Joint, Polyline, Segment};
 
-use super::{Figure, Placed, Polygons, Shape};
+use super::{Contour, Figure, Placed, Polygons, Shape};
 use crate::detect::narrow::plane as pairs;
 use crate::space::{Plane, Space};
 use moreau_solve::Row;

@@ -24,7 +24,7 @@ pub use polyhedron::Polyhedron;
 pub use surface::Surface;
 pub(crate) use surface::{On, is_one};
 
-use super::{Figure, Placed, Polygons, Shape};
+use super::{Contour, Figure, Placed, Polygons, Shape};
 use crate::detect::narrow::solid as pairs;
 use crate::space::{Solid, Space};
 use moreau_solve::Row;

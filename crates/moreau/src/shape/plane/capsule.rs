@@ -2,7 +2,7 @@
 
 use super::boundary::{Side, side};
 use crate::shape::polygons::SIDES;
-use crate::shape::{Figure, Polygons, ShapeError, error::length};
+use crate::shape::{Contour, Figure, Polygons, SAME, ShapeError, error::length};
 use crate::space::Plane;
 use std::f64::consts::PI;
 
@@ -53,6 +53,14 @@ impl Figure<Plane, 2, 3> for Capsule {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(0.5 * self.length + self.radius)
+    }
+
+    fn contour(&self, at: [f64; 2], outward: [f64; 2], _: usize) -> Contour<2> {
+        let (half, along) = (0.5 * self.length, at[0] - self.radius * outward[0]);
+        if outward[0].abs() < SAME && along.abs() < (1.0 - SAME) * half {
+            return Contour::Flat { at, outward };
+        }
+        Contour::Ball { centre: [half.copysign(along), 0.0], radius: self.radius }
     }
 
     /// A = 2 r l + π r² and, the centroid of a half-disk being 4 r / (3 π) beyond its diameter,

@@ -2,7 +2,7 @@
 
 use super::PlaneShape;
 use super::boundary::dot;
-use crate::shape::{self, Figure, Polygons, Shape, ShapeError};
+use crate::shape::{self, Contour, Figure, Polygons, Shape, ShapeError};
 use crate::space::{Plane, Pose, placed};
 use std::sync::Arc;
 
@@ -76,6 +76,10 @@ impl Figure<Plane, 2, 3> for Compound {
 
     fn parts(&self) -> &[Part] {
         &self.parts
+    }
+
+    fn contour(&self, at: [f64; 2], _: [f64; 2], _: usize) -> Contour<2> {
+        Contour::corner(at)
     }
 
     fn polygons(&self) -> Polygons<2> {

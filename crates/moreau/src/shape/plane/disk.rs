@@ -1,7 +1,7 @@
 //! The disk.
 
 use crate::shape::polygons::{Polygons, SIDES};
-use crate::shape::{Figure, ShapeError, error::length};
+use crate::shape::{Contour, Figure, ShapeError, error::length};
 use crate::space::Plane;
 use std::f64::consts::PI;
 
@@ -28,6 +28,10 @@ impl Figure<Plane, 2, 3> for Disk {
     #[inline]
     fn is_round(&self) -> bool {
         true
+    }
+
+    fn contour(&self, _: [f64; 2], _: [f64; 2], _: usize) -> Contour<2> {
+        Contour::Ball { centre: [0.0; 2], radius: self.radius }
     }
 
     fn polygons(&self) -> Polygons<2> {

@@ -1,6 +1,6 @@
 //! The half-plane.
 
-use crate::shape::Figure;
+use crate::shape::{Contour, Figure};
 use crate::space::{Plane, Space};
 
 /// All that lies below a line. The body's position is a point of the line, the outward normal is the body's y axis. It has no
@@ -24,6 +24,10 @@ impl Figure<Plane, 2, 3> for HalfPlane {
 
     fn bounding_normal(&self, rotation: <Plane as Space<2, 3>>::Rotation) -> Option<[f64; 2]> {
         Some(Self::normal(rotation))
+    }
+
+    fn contour(&self, at: [f64; 2], outward: [f64; 2], _: usize) -> Contour<2> {
+        Contour::Flat { at, outward }
     }
 
     fn mass(&self, _: f64) -> [f64; 3] {

@@ -2,7 +2,7 @@
 
 use super::boundary::{Side, check_convex, check_points, check_simple, cross, dot, side, signed_area, sub, sum};
 use crate::shape::error::length;
-use crate::shape::{Figure, Polygons, ShapeError};
+use crate::shape::{Contour, Figure, Polygons, ShapeError, is_same};
 use crate::space::Plane;
 use std::sync::Arc;
 
@@ -76,6 +76,11 @@ impl Figure<Plane, 2, 3> for Polygon {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.bounding_radius)
+    }
+
+    fn contour(&self, at: [f64; 2], outward: [f64; 2], _: usize) -> Contour<2> {
+        let is_side = self.sides.iter().any(|side| is_same(side.normal, outward));
+        if is_side { Contour::Flat { at, outward } } else { Contour::corner(at) }
     }
 
     fn polygons(&self) -> Polygons<2> {

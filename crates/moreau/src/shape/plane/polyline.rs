@@ -1,7 +1,7 @@
 //! The polyline: ground or wall by points, solid on one side.
 
 use super::boundary::{check_finite, dot, meet, sub, turn};
-use crate::shape::{Figure, Polygons, ShapeError};
+use crate::shape::{Contour, Figure, Polygons, ShapeError, is_same};
 use crate::space::Plane;
 use std::sync::Arc;
 use tree::Tree;
@@ -152,6 +152,11 @@ impl Figure<Plane, 2, 3> for Polyline {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         None
+    }
+
+    fn contour(&self, at: [f64; 2], outward: [f64; 2], piece: usize) -> Contour<2> {
+        let is_flat = self.segments().get(piece).is_some_and(|segment| is_same(segment.normal, outward));
+        if is_flat { Contour::Flat { at, outward } } else { Contour::corner(at) }
     }
 
     /// Its segments as lines: what lies behind them has no end.

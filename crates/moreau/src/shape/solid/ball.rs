@@ -1,7 +1,7 @@
 //! The ball.
 
 use super::revolved::{arc, revolved};
-use crate::shape::{Figure, Polygons, ShapeError, error::length};
+use crate::shape::{Contour, Figure, Polygons, ShapeError, error::length};
 use crate::space::Solid;
 use std::f64::consts::PI;
 
@@ -28,6 +28,10 @@ impl Figure<Solid, 3, 6> for Ball {
     #[inline]
     fn is_round(&self) -> bool {
         true
+    }
+
+    fn contour(&self, _: [f64; 3], _: [f64; 3], _: usize) -> Contour<3> {
+        Contour::Ball { centre: [0.0; 3], radius: self.radius }
     }
 
     fn polygons(&self) -> Polygons<3> {

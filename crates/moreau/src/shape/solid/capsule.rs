@@ -1,7 +1,7 @@
 //! The capsule.
 
 use super::revolved::{arc, revolved};
-use crate::shape::{Figure, Polygons, ShapeError, error::length};
+use crate::shape::{Contour, Figure, Polygons, SAME, ShapeError, error::length};
 use crate::space::Solid;
 use std::f64::consts::PI;
 
@@ -33,6 +33,14 @@ impl Figure<Solid, 3, 6> for Capsule {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.half + self.radius)
+    }
+
+    fn contour(&self, at: [f64; 3], outward: [f64; 3], _: usize) -> Contour<3> {
+        let along = at[2] - self.radius * outward[2];
+        if outward[2].abs() < SAME && along.abs() < (1.0 - SAME) * self.half {
+            return Contour::Line { at: [0.0; 3], way: [0.0, 0.0, 1.0], radius: self.radius };
+        }
+        Contour::Ball { centre: [0.0, 0.0, self.half.copysign(along)], radius: self.radius }
     }
 
     fn polygons(&self) -> Polygons<3> {

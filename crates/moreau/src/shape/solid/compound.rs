@@ -2,7 +2,7 @@
 
 use super::SolidShape;
 use super::inertia::Moments;
-use crate::shape::{self, Figure, Polygons, Shape, ShapeError};
+use crate::shape::{self, Contour, Figure, Polygons, Shape, ShapeError};
 use crate::space::{Pose, Solid};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
@@ -89,6 +89,10 @@ impl Figure<Solid, 3, 6> for Compound {
     }
 
     /// Those of all parts, also where they lie inside others.
+    fn contour(&self, at: [f64; 3], _: [f64; 3], _: usize) -> Contour<3> {
+        Contour::corner(at)
+    }
+
     fn polygons(&self) -> Polygons<3> {
         let mut all = Polygons::default();
         self.0.parts.iter().for_each(|part| all.add::<Solid, 6>(&part.shape.polygons(), &part.pose));

@@ -1,7 +1,7 @@
 //! The box.
 
 use super::{Edge, Faceted, faceted};
-use crate::shape::{Figure, Polygons, ShapeError, error::length};
+use crate::shape::{Contour, Figure, Polygons, SAME, ShapeError, error::length};
 use crate::space::Solid;
 
 /// A box around its centre, its edges along the body's axes.
@@ -33,6 +33,15 @@ impl Figure<Solid, 3, 6> for Cuboid {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.radius())
+    }
+
+    fn contour(&self, at: [f64; 3], outward: [f64; 3], _: usize) -> Contour<3> {
+        let mut level = (0..3).filter(|&k| outward[k].abs() < SAME);
+        match (level.next(), level.next()) {
+            (Some(_), Some(_)) => Contour::Flat { at, outward },
+            (Some(k), None) => Contour::Line { at, way: std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }), radius: 0.0 },
+            (None, _) => Contour::corner(at),
+        }
     }
 
     fn polygons(&self) -> Polygons<3> {

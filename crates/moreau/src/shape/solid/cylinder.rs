@@ -1,9 +1,12 @@
 //! The cylinder.
 
 use super::revolved::revolved;
-use crate::shape::{Figure, Polygons, ShapeError, error::length};
+use crate::shape::{Contour, Figure, Polygons, SAME, ShapeError, error::length};
 use crate::space::Solid;
 use std::f64::consts::PI;
+
+/// How far from the lowest point of the rim, in radii, a point of contact counts as that point.
+const ON_RIM: f64 = 1e-3;
 
 /// A circular cylinder around its centre, its axis along the body's z axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +29,25 @@ impl Figure<Solid, 3, 6> for Cylinder {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some((self.radius * self.radius + self.half * self.half).sqrt())
+    }
+
+    fn contour(&self, at: [f64; 3], outward: [f64; 3], _: usize) -> Contour<3> {
+        let [x, y, z] = outward;
+        let across = (x * x + y * y).sqrt();
+        if across < SAME {
+            return Contour::Flat { at, outward };
+        }
+        if z.abs() < SAME {
+            return Contour::Line { at: [0.0; 3], way: [0.0, 0.0, 1.0], radius: self.radius };
+        }
+        let centre = [0.0, 0.0, self.half.copysign(at[2])];
+        let lowest = [self.radius * x / across, self.radius * y / across, centre[2]];
+        let apart = (0..3).map(|k| (at[k] - lowest[k]) * (at[k] - lowest[k])).sum::<f64>().sqrt();
+        // Of one that nearly lies the lowest points of both rims are contacts. Other points are those that a cap stands on, fixed in the body.
+        if apart < ON_RIM * self.radius {
+            return Contour::Rim { centre, axis: [0.0, 0.0, 1.0], radius: self.radius };
+        }
+        Contour::corner(at)
     }
 
     fn polygons(&self) -> Polygons<3> {

@@ -1,6 +1,7 @@
 //! Convex bodies with flat faces, as contacts see them.
 
-use crate::shape::Polygons;
+use crate::detect::narrow::vector::{along, dot, sub};
+use crate::shape::{Contour, Polygons, SAME, is_same};
 
 /// A convex polyhedron around its centre of mass, in its body's frame.
 pub trait Faceted {
@@ -27,6 +28,24 @@ pub(super) fn polygons(body: &impl Faceted) -> Polygons<3> {
     let mut all = Polygons::on((0..body.vertices()).map(|i| body.vertex(i)).collect());
     (0..body.faces()).for_each(|i| all.push(body.face(i).iter().map(|&corner| usize::from(corner))));
     all
+}
+
+/// What it is like near a point of contact: a face, an edge or a corner.
+pub(super) fn contour(body: &impl Faceted, at: [f64; 3], outward: [f64; 3]) -> Contour<3> {
+    if (0..body.faces()).any(|face| is_same(body.normal(face), outward)) {
+        return Contour::Flat { at, outward };
+    }
+    for edge in body.edges() {
+        let [start, end] = edge.ends.map(|i| body.vertex(usize::from(i)));
+        let (side, from) = (sub(end, start), sub(at, start));
+        let length = dot(side, side).sqrt();
+        let way = side.map(|x| x / length);
+        let off = along(from, -dot(from, way), way);
+        if dot(way, outward).abs() < SAME && dot(off, off) < (SAME * body.radius()) * (SAME * body.radius()) {
+            return Contour::Line { at, way, radius: 0.0 };
+        }
+    }
+    Contour::corner(at)
 }
 
 /// An edge, where two faces meet.

@@ -1,6 +1,6 @@
 //! The half-space.
 
-use crate::shape::Figure;
+use crate::shape::{Contour, Figure};
 use crate::space::{Solid, Space};
 
 /// All that lies below a plane. The body's position is a point of the plane, the outward normal is the body's z axis. It has no
@@ -24,6 +24,10 @@ impl Figure<Solid, 3, 6> for HalfSpace {
 
     fn bounding_normal(&self, rotation: <Solid as Space<3, 6>>::Rotation) -> Option<[f64; 3]> {
         Some(Self::normal(rotation))
+    }
+
+    fn contour(&self, at: [f64; 3], outward: [f64; 3], _: usize) -> Contour<3> {
+        Contour::Flat { at, outward }
     }
 
     fn mass(&self, _: f64) -> [f64; 6] {

@@ -7,7 +7,7 @@ mod tests;
 use super::inertia::Moments;
 use super::{Edge, Faceted, faceted};
 use crate::detect::narrow::vector::dot;
-use crate::shape::{Figure, Polygons, ShapeError};
+use crate::shape::{Contour, Figure, Polygons, ShapeError};
 use crate::space::{Pose, Solid, Space};
 use glam::DQuat;
 use std::collections::BTreeMap;
@@ -121,6 +121,10 @@ impl Figure<Solid, 3, 6> for Polyhedron {
     #[inline]
     fn bounding_radius(&self) -> Option<f64> {
         Some(self.form.radius)
+    }
+
+    fn contour(&self, at: [f64; 3], outward: [f64; 3], _: usize) -> Contour<3> {
+        faceted::contour(self, at, outward)
     }
 
     fn polygons(&self) -> Polygons<3> {

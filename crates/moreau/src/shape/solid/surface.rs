@@ -2,7 +2,7 @@
 
 use crate::detect::narrow::vector::{along, cross, dot, sub};
 use crate::mesh::{Aabb, Edges, Mesh, MeshError, NONE, Tree};
-use crate::shape::{Figure, Polygons};
+use crate::shape::{Contour, Figure, Polygons, SAME};
 use crate::space::Solid;
 use std::fmt;
 use std::sync::Arc;
@@ -182,6 +182,18 @@ impl Figure<Solid, 3, 6> for Surface {
 
     fn is_convex(&self) -> bool {
         false
+    }
+
+    fn contour(&self, at: [f64; 3], outward: [f64; 3], piece: usize) -> Contour<3> {
+        if piece >= self.0.normals.len() || self.is_front(piece, outward) {
+            return Contour::Flat { at, outward };
+        }
+        let corners = self.corners(piece);
+        let size = (0..3).map(|k| dot(sub(corners[k], corners[0]), sub(corners[k], corners[0]))).fold(0.0, f64::max).sqrt();
+        match self.place(piece, at, SAME * size) {
+            On::Edge(k) => Contour::Line { at, way: unit(sub(corners[(k + 1) % 3], corners[k])), radius: 0.0 },
+            On::Face | On::Corner(_) | On::Off => Contour::corner(at),
+        }
     }
 
     fn polygons(&self) -> Polygons<3> {
