@@ -70,6 +70,8 @@ pub struct Approach<const D: usize> {
     pub closed_below: f64,
     /// The relative velocity u⁻ at the beginning of the step, m/s.
     pub before: Vector<D>,
+    /// What rows of the end of the step add to the velocity at the end, and take from that at the beginning, m/s; zeros where the contact does not turn.
+    pub remainder: Vector<D>,
     /// The length of the step, s.
     pub step: f64,
 }
@@ -147,14 +149,15 @@ fn impact_shift<const D: usize>(contact: &Approach<D>, acts: Acts, e_n: f64, e_t
     // On approach, Newton's law waits for the contact that its own velocity would close within the step: a body that
     // rebounds does so at full speed, not slowed by the gap that is left.
     let crossed = contact.gap + contact.step * contact.before[0] < 0.0;
-    let mut shift = [0.0; D];
+    let mut shift = contact.remainder;
     if closed || (e_n > 0.0 && crossed) {
-        shift[0] = e_n * contact.before[0];
+        // u⁻ in the rows of the beginning.
+        shift[0] += e_n * (contact.before[0] - contact.remainder[0]);
         for i in 1..D {
-            shift[i] = e_t * contact.before[i];
+            shift[i] += e_t * (contact.before[i] - contact.remainder[i]);
         }
     } else {
-        shift[0] = contact.gap / contact.step;
+        shift[0] += contact.gap / contact.step;
     }
     Some(shift)
 }
@@ -167,11 +170,13 @@ fn check_restitution(parameter: &'static str, value: f64) -> Result<(), LawError
 mod tests {
     use super::*;
 
-    const FALLING: Approach<2> = Approach { gap: -1e-6, closed_below: 1e-12, before: [-2.0, 1.0], step: 1e-3 };
+    const FALLING: Approach<2> =
+        Approach { gap: -1e-6, closed_below: 1e-12, before: [-2.0, 1.0], remainder: [0.0; 2], step: 1e-3 };
 
     #[test]
     fn newtons_law_is_a_shift() {
-        let law = Law::Coulomb(Coulomb { friction: 0.3, restitution: 0.5, tangential_restitution: 0.25, acts: Acts::Closed });
+        let law =
+            Law::Coulomb(Coulomb { friction: 0.3, restitution: 0.5, tangential_restitution: 0.25, acts: Acts::Closed });
         let form = law.normal_form(&FALLING).unwrap();
         assert_eq!(form, NormalForm { cone: Cone::Coulomb(0.3), shift: [-1.0, 0.25] });
         assert_eq!(law.normal_form(&Approach { gap: 1e-6, ..FALLING }), None);

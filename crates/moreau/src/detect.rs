@@ -15,6 +15,8 @@ mod sift;
 mod skin;
 mod wall;
 
+pub(crate) use narrow::parts_of;
+
 use crate::contacts::Contact;
 use crate::space::{Pose, Space};
 use bound::Bound;

@@ -13,6 +13,7 @@ mod moreau_jean;
 mod record;
 mod state;
 mod system;
+mod turning;
 mod workspace;
 
 pub use failed::{FAILED_KEPT, FailedSolve};

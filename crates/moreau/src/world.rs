@@ -18,6 +18,17 @@ pub enum Start {
     Warm,
 }
 
+/// Which rows give contacts their velocity at the end of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Rows {
+    /// Those of the end of the step, to second order in h: bodies that roll or turn about an edge keep their height and their energy.
+    #[default]
+    Turning,
+    /// Those of the predicted configuration, half a step earlier, as in the paper.
+    Frozen,
+}
+
 /// What to do when a solve reaches its limit of sweeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -76,6 +87,8 @@ pub struct StepSettings {
     pub h: f64,
     /// θ of the θ-method, from 1/2 to 1 (eq. 13).
     pub theta: f64,
+    /// Which rows give contacts their velocity at the end of a step.
+    pub rows: Rows,
     /// How deep bodies may overlap before their positions are corrected, as a part of the smaller one's bounding radius; `None` for no
     /// correction.
     pub max_penetration: Option<f64>,

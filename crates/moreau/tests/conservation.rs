@@ -9,7 +9,7 @@ use moreau::solve::local::LOCAL_METHODS;
 use moreau::solve::{Acts, Criterion, Law, LocalMethod, Settings, law};
 use moreau::space::{Plane, Pose, Solid, Space};
 use moreau::step::{Workspace, step};
-use moreau::world::{Guard, OnFailure, Start, StepSettings, World};
+use moreau::world::{Guard, OnFailure, Rows, Start, StepSettings, World};
 use proptest::prelude::*;
 
 /// A generator of numbers from -1 to 1, so that one seed describes a scene.
@@ -52,8 +52,15 @@ fn cluster<S: Space<D, N>, const D: usize, const N: usize>(
         bodies.push(body);
     }
     let solver = Settings { local, criterion: Criterion::Scaled, tolerance: 1e-11, max_sweeps: 100_000, ..Settings::default() };
-    let settings =
-        StepSettings { h: 1e-3, theta: 0.5, max_penetration: None, start: Start::Cold, on_failure: OnFailure::Stop, solver };
+    let settings = StepSettings {
+        h: 1e-3,
+        theta: 0.5,
+        rows: Rows::Turning,
+        max_penetration: None,
+        start: Start::Cold,
+        on_failure: OnFailure::Stop,
+        solver,
+    };
     let (laws, gravity, schedule) = (Laws::new(1, law), [0.0; D], Schedule::default());
     World { bodies, laws, joints: Vec::new(), gravity, schedule, guard: Guard::default(), settings, time: 0.0, steps: 0 }
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 const MAGIC: &[u8] = b"moreau checkpoint\n";
 
 /// The version of the layout: of all that [`Checkpoint`] is made of. Whoever changes that counts on.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Writes a checkpoint; when this returns it is on the disk, and whatever happens before, it is not there at all.
 ///

@@ -45,6 +45,7 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
     let settings = StepSettings {
         h: scene.time.step,
         theta: scene.time.theta,
+        rows: scene.time.rows,
         max_penetration: solver.max_penetration,
         start: solver.start,
         on_failure: solver.on_failure,

@@ -6,7 +6,7 @@ use super::events::DriveSpec;
 use super::shape::{ShapeSpec, is_false};
 use super::values::{Angular, Orientation};
 use crate::trajectory::Precision;
-use crate::world::{OnBreach, OnFailure, Start};
+use crate::world::{OnBreach, OnFailure, Rows, Start};
 use moreau_solve::{Criterion, GlobalMethod, Kernels, Law, LocalMethod, Order, Parameter, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,6 +22,10 @@ pub struct Time {
     /// θ of the θ-method, from 0.5 (the midpoint, which keeps energy) to 1 (implicit Euler).
     #[serde(default = "Time::half")]
     pub theta: f64,
+    /// Which rows give contacts their velocity at the end of a step: "turning", those of the end of the step, or "frozen", those of half a step
+    /// before, as in the paper.
+    #[serde(default)]
+    pub rows: Rows,
 }
 
 impl Time {

@@ -2,11 +2,12 @@
 
 use super::localise::{Localiser, margins, speed};
 use super::system::Kind;
+use super::turning::Turning;
 use super::{Localised, Workspace};
 use crate::contacts::ContactKey;
 use crate::shape::Shape;
 use crate::space::Space;
-use crate::world::{Start, World};
+use crate::world::{Rows, Start, World};
 use moreau_solve::{Acts, tasks};
 
 /// Finds the contacts at the predicted configuration.
@@ -52,7 +53,13 @@ pub(super) fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
         work.spins.fill::<S, D, N>(&work.middle, [&bodies.velocity, &work.free]);
         &work.spins
     });
-    let localiser = Localiser { world, middle: &work.middle, free: &work.free, spins, h };
+    work.remainders.clear();
+    if world.settings.rows == Rows::Turning {
+        let spins = spins.map(|spins| spins.before.as_slice());
+        Turning { bodies, middle: &work.middle, spins, h }.fill(&work.found, &work.previous, &mut work.remainders);
+    }
+    let last = if world.settings.rows == Rows::Turning { work.last.as_slice() } else { &[] };
+    let localiser = Localiser { world, middle: &work.middle, free: &work.free, spins, remainders: &work.remainders, last, h };
     localiser.each(&work.found, &mut work.contacts);
     work.joints.localise(world, &work.middle, &work.free, h);
     if world.settings.start == Start::Warm {

@@ -6,14 +6,14 @@ use crate::contacts::Contact;
 use crate::shape::Shape;
 use crate::space::{Pose, Space, swept};
 use crate::world::World;
-use moreau_solve::block::dot;
+use moreau_solve::block::{dot, norm, tangent_norm};
 use moreau_solve::law::Approach;
 use moreau_solve::tasks;
 
 /// Spins in the world of all bodies, at the beginning of the step and without contacts.
 #[derive(Default)]
 pub(super) struct Spins {
-    before: Vec<[f64; 3]>,
+    pub(super) before: Vec<[f64; 3]>,
     free: Vec<[f64; 3]>,
 }
 
@@ -32,6 +32,12 @@ impl Spins {
     }
 }
 
+/// A contact that slides by less than this part of the smaller body's radius in a step is not asked how its velocity changes.
+const SLIDES: f64 = 1e-7;
+
+/// A contact slides steadily if its velocity is so many times half of what it changed by in the last step: the next steps do not end it.
+const STEADY: f64 = 8.0;
+
 /// What localising reads.
 pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) world: &'a World<S, D, N>,
@@ -39,6 +45,10 @@ pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> 
     pub(super) free: &'a [[f64; N]],
     /// `None` where no contact turns a body; velocities are then those along the normal alone.
     pub(super) spins: Option<&'a Spins>,
+    /// The remainders of the contacts that were found; none where rows stay those of the prediction.
+    pub(super) remainders: &'a [[f64; D]],
+    /// The velocities at the beginning of the step before; none where rows stay those of the prediction.
+    pub(super) last: &'a [[f64; N]],
     pub(super) h: f64,
 }
 
@@ -46,14 +56,17 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
     /// Localises those of `found` whose law acts in this step, in order. Until they are solved, `after` is their velocity without
     /// impulses.
     pub(super) fn each(&self, found: &[Contact<D>], contacts: &mut Vec<Localised<D>>) {
-        let one = |c: usize| if self.spins.is_some() { self.one::<true>(&found[c]) } else { self.one::<false>(&found[c]) };
+        let one = |c: usize| {
+            let remainder = self.remainders.get(c).copied().unwrap_or([0.0; D]);
+            if self.spins.is_some() { self.one::<true>(&found[c], remainder) } else { self.one::<false>(&found[c], remainder) }
+        };
         tasks::fill(contacts, found.len(), one);
         contacts.retain(Localised::acts);
     }
 
     /// With TURNS the spins count.
     #[inline]
-    fn one<const TURNS: bool>(&self, contact: &Contact<D>) -> Localised<D> {
+    fn one<const TURNS: bool>(&self, contact: &Contact<D>, remainder: [f64; D]) -> Localised<D> {
         let bodies = &self.world.bodies;
         let (a, b) = (contact.key.a as usize, contact.key.b as usize);
         let frame = S::frame(contact.normal);
@@ -61,7 +74,13 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         let before = |body: usize| self.at_point::<TURNS>(contact, body, &bodies.velocity, spins(|spins| &spins.before));
         let (before_a, before_b) = (before(a), before(b));
         let before = in_frame::<D, TURNS>(&frame, &before_a, &before_b);
-        let approach = Approach { gap: contact.gap, closed_below: closed_below(bodies, [a, b]), before, step: self.h };
+        let mut remainder = in_frame::<D, TURNS>(&frame, &[0.0; D], &remainder);
+        if TURNS && let Some(half) = self.half_change(contact, &frame, [a, b], &before) {
+            (1..D).for_each(|i| remainder[i] = -half[i]);
+        }
+        let remainder = lasting(remainder, before[0]);
+        let closed_below = closed_below(bodies, [a, b]);
+        let approach = Approach { gap: contact.gap, closed_below, before, remainder, step: self.h };
         let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach);
         let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
         let (after_a, after_b) = (free(a), free(b));
@@ -77,6 +96,31 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         Localised::new(*contact, frame, form, [before, after, driven])
     }
 
+    /// Of a contact that slides, half of what its velocity is going to change by, as it did in the step before: less that, the velocity at the end is the mean of the step's,
+    /// to which friction is opposite (theory, section 23). `None` where it does not slide, or not for long.
+    fn half_change(
+        &self,
+        contact: &Contact<D>,
+        frame: &[[f64; D]; D],
+        [a, b]: [usize; 2],
+        before: &[f64; D],
+    ) -> Option<[f64; D]> {
+        let slip = tangent_norm(before);
+        let radius = |i: usize| self.world.bodies.shape[i].bounding_radius().unwrap_or(f64::INFINITY);
+        if a.max(b) >= self.last.len() || self.h * slip <= SLIDES * radius(a).min(radius(b)) {
+            return None;
+        }
+        let velocity = |i: usize| {
+            let (v, pose) = (&self.last[i], &self.middle[i]);
+            let arm: [f64; D] = std::array::from_fn(|k| contact.point[k] - pose.position[k]);
+            let swept = swept(&S::spin_in_world(pose.rotation, v), &arm);
+            std::array::from_fn(|k| v[k] + swept[k])
+        };
+        let last = in_frame::<D, true>(frame, &velocity(a), &velocity(b));
+        let half = std::array::from_fn(|i| 0.5 * (before[i] - last[i]));
+        (slip >= STEADY * tangent_norm(&half)).then_some(half)
+    }
+
     /// The velocity of a body at the contact, v + ω × arm, or that of its centre.
     #[inline]
     fn at_point<const TURNS: bool>(&self, contact: &Contact<D>, body: usize, v: &[[f64; N]], spins: &[[f64; 3]]) -> [f64; D] {
@@ -89,6 +133,18 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         let swept = swept(&spins[body], &arm);
         std::array::from_fn(|k| v[k] + swept[k])
     }
+}
+
+/// What of a remainder counts where the gap has the rate `before`, m/s, at the predicted configuration: all in contact that lasts, whose rate at the
+/// beginning is next to nothing; at an impact, which changes the velocity that the remainder was taken from, the part that cannot make energy
+/// of first order (theory (82)).
+#[inline]
+fn lasting<const D: usize>(remainder: [f64; D], before: f64) -> [f64; D] {
+    if remainder == [0.0; D] {
+        return remainder;
+    }
+    let (size, rate) = (norm(&remainder), (before - remainder[0]).abs());
+    if rate <= size { remainder } else { remainder.map(|x| x * (size / rate)) }
 }
 
 /// The velocity of b relative to a in the contact's frame, or along its normal alone.

@@ -132,6 +132,7 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     let dissipated = work.ledger.dissipated();
     work.ledger.book(&world.bodies, &world.gravity, [&work.free, &work.after], &work.contacts, (h, theta));
     work.ledger.book_joints(&work.joints.blocks);
+    work.last.clone_from(&world.bodies.velocity);
     // 11 q⁺ = q_m + h θ v⁺
     let taken = integrate::advance(&mut world.bodies, &work.middle, [&work.free, &work.after], h, theta);
     work.ledger.dissipate(taken);

@@ -14,6 +14,7 @@ pub(crate) struct WorkspaceState {
     keys: Vec<ContactKey>,
     impulses: Vec<f64>,
     joints: Vec<f64>,
+    last: Vec<f64>,
     failed: u64,
 }
 
@@ -24,12 +25,13 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Workspace<S, D, N> {
             keys: self.previous.iter().map(|(key, _)| *key).collect(),
             impulses: self.previous.iter().flat_map(|(_, impulse)| *impulse).collect(),
             joints: self.joints.previous.as_flattened().to_vec(),
+            last: self.last.as_flattened().to_vec(),
             failed: self.failed.count,
         }
     }
 
     pub(crate) fn restore(&mut self, state: &WorkspaceState) -> Result<(), CheckpointError> {
-        let WorkspaceState { ledger, keys, impulses, joints, failed } = state;
+        let WorkspaceState { ledger, keys, impulses, joints, last, failed } = state;
         let wrong = || CheckpointError::misfit("impulses are none that a run could have");
         let impulses = rows(impulses, keys.len()).ok_or_else(wrong)?;
         if !keys.is_sorted() {
@@ -37,6 +39,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Workspace<S, D, N> {
         }
         self.previous = keys.iter().copied().zip(impulses).collect();
         self.joints.previous = rows(joints, joints.len() / D).ok_or_else(wrong)?;
+        self.last = rows(last, last.len() / N).ok_or_else(wrong)?;
         (self.ledger, self.failed.count) = (*ledger, *failed);
         Ok(())
     }

@@ -33,6 +33,17 @@ pub(super) fn on_last_part(part: usize, feature: u64) -> u64 {
     ((part as u64) << LAST_PART) | feature
 }
 
+/// The parts of the two bodies that a feature speaks of, of those that have parts (`several`), and the piece of a surface.
+pub(crate) fn parts_of(feature: u64, several: [bool; 2]) -> ([usize; 2], usize) {
+    let last = (feature >> LAST_PART) as usize;
+    let first = (feature >> FIRST_PART) as usize & ((1 << (LAST_PART - FIRST_PART)) - 1);
+    match several {
+        [true, true] => ([first, last], 0),
+        [true, false] | [false, true] => ([last, last], (feature >> PIECE) as usize & ((1 << (LAST_PART - PIECE)) - 1)),
+        [false, false] => ([0, 0], (feature >> PIECE) as usize),
+    }
+}
+
 /// Two round bodies (centre, radius). Where the centres coincide every direction is as good as another; the last axis is taken.
 #[inline]
 pub(in crate::detect) fn two_round<const D: usize>(
