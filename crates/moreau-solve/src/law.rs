@@ -176,10 +176,16 @@ mod tests {
     #[test]
     fn newtons_law_is_a_shift() {
         let law =
-            Law::Coulomb(Coulomb { friction: 0.3, restitution: 0.5, tangential_restitution: 0.25, acts: Acts::Closed });
+            Law::Coulomb(Coulomb { friction: 0.3, restitution: 0.5, tangential_restitution: Some(0.25), acts: Acts::Closed });
         let form = law.normal_form(&FALLING).unwrap();
         assert_eq!(form, NormalForm { cone: Cone::Coulomb(0.3), shift: [-1.0, 0.25] });
         assert_eq!(law.normal_form(&Approach { gap: 1e-6, ..FALLING }), None);
+    }
+
+    #[test]
+    fn the_tangential_coefficient_is_the_normal_one_where_none_is_given() {
+        let law = Law::Coulomb(Coulomb { friction: 0.3, restitution: 0.5, ..Coulomb::default() });
+        assert_eq!(law.normal_form(&FALLING).unwrap().shift, [-1.0, 0.5]);
     }
 
     #[test]
@@ -193,7 +199,7 @@ mod tests {
     fn each_law_is_in_the_table() {
         let laws = [
             Law::Frictionless(Frictionless { restitution: 0.0, acts: Acts::Closed }),
-            Law::Coulomb(Coulomb { friction: 1.0, restitution: 0.0, tangential_restitution: 0.0, acts: Acts::Closed }),
+            Law::Coulomb(Coulomb { friction: 1.0, restitution: 0.0, tangential_restitution: None, acts: Acts::Closed }),
             Law::Sticking(Sticking { restitution: 0.0, acts: Acts::Closed }),
         ];
         assert_eq!(laws.map(|law| law.name()).as_slice(), LAWS.iter().map(|row| row.name).collect::<Vec<_>>());

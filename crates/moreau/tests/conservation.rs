@@ -128,7 +128,7 @@ fn both(seed: u64, law: Law, local: LocalMethod, elastic: bool, name: &str) -> R
 }
 
 fn coulomb(friction: f64, e: f64, acts: Acts) -> Law {
-    Law::Coulomb(law::Coulomb { friction, restitution: e, tangential_restitution: e, acts })
+    Law::Coulomb(law::Coulomb { friction, restitution: e, tangential_restitution: Some(e), acts })
 }
 
 proptest! {

@@ -12,9 +12,10 @@ pub struct Coulomb {
     /// Newton's coefficient e_n, 0 (no rebound) to 1.
     #[cfg_attr(feature = "schema", serde(default))]
     pub restitution: f64,
-    /// Tangential coefficient e_t, 0 to 1.
-    #[cfg_attr(feature = "schema", serde(default))]
-    pub tangential_restitution: f64,
+    /// Tangential coefficient e_t, 0 to 1; that of the normal where none is given, so that an impact makes no energy. 0 stops the tangent where it sticks, and an impact with
+    /// restitution may then make energy.
+    #[cfg_attr(feature = "schema", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub tangential_restitution: Option<f64>,
     /// When the contact acts.
     #[cfg_attr(feature = "schema", serde(default))]
     pub acts: Acts,
@@ -23,7 +24,8 @@ pub struct Coulomb {
 impl Coulomb {
     #[inline]
     pub(super) fn normal_form<const D: usize>(&self, contact: &Approach<D>) -> Option<NormalForm<D>> {
-        let shift = impact_shift(contact, self.acts, self.restitution, self.tangential_restitution)?;
+        let tangential = self.tangential_restitution.unwrap_or(self.restitution);
+        let shift = impact_shift(contact, self.acts, self.restitution, tangential)?;
         let cone = if self.friction == 0.0 { Cone::Signorini } else { Cone::Coulomb(self.friction) };
         Some(NormalForm { cone, shift })
     }
@@ -33,6 +35,6 @@ impl Coulomb {
             return Err(LawError { parameter: "friction", value: self.friction, range: "a finite number, 0 or more" });
         }
         check_restitution("restitution", self.restitution)?;
-        check_restitution("tangential_restitution", self.tangential_restitution)
+        check_restitution("tangential_restitution", self.tangential_restitution.unwrap_or(0.0))
     }
 }
