@@ -5,6 +5,7 @@ mod active_set;
 mod admm;
 mod apgd;
 mod auto;
+mod best;
 mod cpg;
 pub(crate) mod judge;
 mod lemke;
@@ -17,8 +18,8 @@ mod sweep;
 use crate::block::Vector;
 use crate::local::{LocalSolver, WithLocal, with_local};
 use crate::report::Stage;
-use crate::residual::measure;
 use crate::{Operator, Problem, Report, Row, Settings, Status};
+use best::settle;
 use judge::Judge;
 
 /// The methods by name. Adding one is a file, a variant with its row in [`GLOBAL_METHODS`], and an arm of `Work::run`.
@@ -99,8 +100,10 @@ pub struct Scratch<State, const D: usize> {
     pub(crate) earlier: State,
     pub(crate) spare: State,
     pub(crate) mixing: mixing::Mixing,
-    /// The best impulses seen, of methods that may get worse.
+    /// The impulses to which a method goes back where its steps lead astray.
     pub(crate) best: Vec<Vector<D>>,
+    /// The best impulses of the solve.
+    pub(crate) kept: best::Best<D>,
     pub(crate) packings: packed::Packings,
 }
 
@@ -126,6 +129,8 @@ pub(crate) struct Work<'a, O: Operator<D>, const D: usize> {
 impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
     /// Runs one method from the impulses of now.
     fn run(&mut self, method: GlobalMethod) -> Status {
+        // What another method has claimed is not what this one claims.
+        self.scratch.claimed.clear();
         match method {
             GlobalMethod::Auto => auto::run(self),
             GlobalMethod::Cpg => cpg::run(self),
@@ -151,9 +156,22 @@ impl<O: Operator<D>, const D: usize> Work<'_, O, D> {
         self.problem.operator.start(self.r, &mut self.scratch.state);
     }
 
+    /// Goes back to the best impulses of the solve, if any were measured.
+    fn go_back(&mut self) {
+        if self.judge.best.error.is_finite() {
+            self.r.copy_from_slice(&self.judge.best.impulses);
+            self.scratch.claimed.clear();
+        }
+    }
+
     /// Asks the judge after a step of a method that claims no velocities; `state` of the scratch must stand for the impulses.
     fn after_step(&mut self) -> Option<Status> {
         self.judge.after_step(&mut self.scratch.state, self.r, None)
+    }
+
+    /// Asks the judge about the impulses alone.
+    fn certify(&mut self) -> Option<Status> {
+        self.judge.certify(&mut self.scratch.state, self.r, None)
     }
 
     /// Asks the judge after a sweep.
@@ -192,7 +210,7 @@ impl<O: Operator<D>, const D: usize> WithLocal for Sweeping<'_, '_, O, D> {
     }
 }
 
-/// Solves `problem` from the impulses in `r`, which it replaces.
+/// Solves `problem` from the impulses in `r`, which it replaces: by the solution, or by the best impulses that were measured.
 ///
 /// Not converging is a status, never an error: the caller owns the policy.
 pub fn solve<O: Operator<D>, const D: usize>(
@@ -202,17 +220,17 @@ pub fn solve<O: Operator<D>, const D: usize>(
     scratch: &mut Scratch<O::State, D>,
 ) -> Report {
     scratch.claimed.clear();
-    let mut work = Work { problem, settings: *settings, r, scratch, judge: Judge::new(problem, settings), stages: Vec::new() };
-    let status = if problem.is_empty() { Status::Converged } else { work.run(settings.global) };
+    let judge = Judge::new(problem, settings, std::mem::take(&mut scratch.kept));
+    let mut work = Work { problem, settings: *settings, r, scratch, judge, stages: Vec::new() };
+    let status = if problem.is_empty() { work.certify().unwrap_or(Status::Stalled) } else { work.run(settings.global) };
     let Work { r, scratch, judge, mut stages, .. } = work;
+    let Judge { sweeps, certificate, mut best, unfinished_visits, history, .. } = judge;
     // What ended the solve has measured all that there is to say.
-    let certificate = judge.certificate.filter(|_| status == Status::Converged);
-    let residual = certificate.unwrap_or_else(|| {
-        problem.operator.start(r, &mut scratch.state);
-        measure(problem, &scratch.state, r, claims(&scratch.claimed))
-    });
+    let certificate = certificate.filter(|_| status == Status::Converged);
+    let residual = certificate.unwrap_or_else(|| settle(problem, settings, r, scratch, &mut best));
+    scratch.kept = best;
     if stages.is_empty() {
-        stages.push(Stage { method: settings.global, sweeps: judge.sweeps, error: residual.of(settings.criterion), status });
+        stages.push(Stage { method: settings.global, sweeps, error: residual.of(settings.criterion), status });
     }
-    Report { status, sweeps: judge.sweeps, stages, residual, unfinished_visits: judge.unfinished_visits, history: judge.history }
+    Report { status, sweeps, stages, residual, unfinished_visits, history }
 }

@@ -5,7 +5,8 @@ use crate::{GlobalMethod, Residual};
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Status {
-    /// The criterion is at most the tolerance.
+    /// The criterion is at most the tolerance, and the law holds as computed from the impulses alone: see
+    /// [`Residual::certifies`], the only rule for this status.
     #[default]
     Converged,
     /// The limit of sweeps was reached first.
@@ -50,7 +51,7 @@ pub struct Stage {
     pub method: GlobalMethod,
     /// Its sweeps, or steps where it has none.
     pub sweeps: u64,
-    /// The criterion when it ended.
+    /// The criterion when it ended; of the last stage of a solve that did not converge, the answer may be better: it is the best of all.
     pub error: f64,
     /// How it ended.
     pub status: Status,
@@ -65,7 +66,7 @@ pub struct Report {
     pub sweeps: u64,
     /// The methods that were at work, in turn: one, unless the method chooses among others.
     pub stages: Vec<Stage>,
-    /// Measured at the end, from the impulses alone.
+    /// Measured at the end, from the impulses alone, of those that are the answer.
     pub residual: Residual,
     /// Visits of the last sweep in which the local solver did not reach its own end.
     pub unfinished_visits: u64,

@@ -6,7 +6,11 @@
 //!   methods that claim none (SBP and SAL);
 //! - ε_bipotential = |ũ·r + μ r_n ‖ũ_T‖|, which vanishes if (ũ, r) obeys the law;
 //! - ε_penetration = −min(0, ũ_n), with ‖ũ_T‖ added for a sticking contact, whose tangential velocity must vanish; the length of what is
-//!   held of a bilateral constraint.
+//!   held of a bilateral constraint;
+//!
+//! and of a fourth part that the paper does not need, as its methods project:
+//!
+//! - ε_cone = w_c dist(r, K), the distance of the impulse from its cone as a velocity. It is zero for methods that project.
 //!
 //! It adds velocities and an energy, so its meaning changes with the units. The scaled residual does not:
 //!
@@ -25,89 +29,26 @@
 //! siconos = √(Σ ‖r − P_K(r − û)‖²) / max(‖q‖, ‖r‖, ‖u‖)
 //! ```
 
+mod certificate;
+
+pub use certificate::{EpsGlob, MOST_ERRORS, MOST_SCALED, Residual, Worst};
+
 use crate::block::{Matrix, Vector, axpy, dot, norm, sub, tangent_norm};
 use crate::tasks::fold;
 use crate::{Cone, Criterion, Operator, Problem};
+use certificate::larger;
 use std::ops::Range;
 
-/// The three parts of ε_glob, each a mean over the contacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EpsGlob {
-    /// Error in the equation of motion, m/s.
-    pub motion: f64,
-    /// Value of the bipotential, J.
-    pub bipotential: f64,
-    /// Velocity of interpenetration, m/s.
-    pub penetration: f64,
-}
-
-impl EpsGlob {
-    /// ε_glob itself.
-    pub fn total(&self) -> f64 {
-        self.motion + self.bipotential + self.penetration
-    }
-
-    #[inline]
-    fn add(&mut self, part: &Self) {
-        self.motion += part.motion;
-        self.bipotential += part.bipotential;
-        self.penetration += part.penetration;
-    }
-
-    fn mean(&self, contacts: usize) -> Self {
-        let share = 1.0 / contacts.max(1) as f64;
-        Self { motion: self.motion * share, bipotential: self.bipotential * share, penetration: self.penetration * share }
-    }
-}
-
-/// The contact with the largest e_c.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Worst {
-    /// Its index in the problem.
-    pub contact: usize,
-    /// Its e_c, m/s.
-    pub error: f64,
-}
-
-/// The certificate of one answer: all measures of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Residual {
-    /// The paper's criterion in its parts.
-    pub eps_glob: EpsGlob,
-    /// The scaled residual, without units.
-    pub scaled: f64,
-    /// The residual that Siconos reports.
-    pub siconos: f64,
-    /// How far claimed velocities are from W r + q, in the scale of the scaled residual: √(Σ ‖ũ − u‖²) / √(Σ ‖q‖² + ‖u‖²).
-    pub motion: f64,
-    /// How far impulses and velocities are from their cones, in the same scale: of w dist(r, K) + dist(û, K*).
-    pub cone: f64,
-    /// How far they are from being orthogonal, in the same scale: of w |û·r| / (w ‖r‖ + ‖û‖).
-    pub complementarity: f64,
-    /// Where the error is largest; `None` where there is no contact.
-    pub worst: Option<Worst>,
-}
-
-impl Residual {
-    /// The one number that `criterion` looks at.
-    pub fn of(&self, criterion: Criterion) -> f64 {
-        match criterion {
-            Criterion::EpsGlob => self.eps_glob.total(),
-            Criterion::Scaled => self.scaled,
-            Criterion::Siconos => self.siconos,
-            Criterion::Strict => larger(self.scaled, self.siconos),
-        }
-    }
-}
-
-/// The larger, or NaN if one is no number: `f64::max` would hide it.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
-}
-
-/// What the three terms of eq. 42 are at one contact.
+/// The four terms of ε_glob at contact `c`.
 #[inline]
-fn eps_glob<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &Vector<D>) -> EpsGlob {
+fn eps_glob<O: Operator<D>, const D: usize>(
+    problem: &Problem<'_, O, D>,
+    c: usize,
+    claimed: &Vector<D>,
+    u: &Vector<D>,
+    r: &Vector<D>,
+) -> EpsGlob {
+    let cone = problem.cones[c];
     let slip = tangent_norm(claimed);
     let held = if cone == Cone::Sticking { slip } else { 0.0 };
     // A contact without friction has no law for its tangent.
@@ -116,16 +57,45 @@ fn eps_glob<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &
         Cone::Coulomb(mu) => (dot(claimed, r) + mu * r[0] * slip, norm(&sub(claimed, u))),
         Cone::Sticking => (dot(claimed, r), norm(&sub(claimed, u))),
         Cone::Rolling { .. } => (dot(&cone.hat(claimed), r), norm(&sub(claimed, u))),
-        Cone::Bilateral { .. } => return eps_glob_bilateral(cone, claimed, u, r),
+        Cone::Bilateral { .. } => return EpsGlob { cone: outside(problem, c, r), ..eps_glob_bilateral(cone, claimed, u, r) },
     };
-    EpsGlob { motion, bipotential: power.abs(), penetration: (-claimed[0]).max(0.0) + held }
+    let cone = if is_within(cone, r) { 0.0 } else { outside(problem, c, r) };
+    EpsGlob { motion, bipotential: power.abs(), penetration: positive(-claimed[0]) + held, cone }
+}
+
+/// True if `r` is in its cone but for the rounding of a projection. For the cones that are seldom it may say no.
+#[inline(always)]
+fn is_within<const D: usize>(cone: Cone, r: &Vector<D>) -> bool {
+    const ROUNDED: f64 = 1.0 + 4.0 * f64::EPSILON;
+    match cone {
+        Cone::Signorini => r[0] >= 0.0 && r[1..].iter().all(|&x| x == 0.0),
+        Cone::Coulomb(mu) => {
+            r[0] >= 0.0 && r[1..].iter().map(|x| x * x).sum::<f64>() <= (ROUNDED * mu * r[0]) * (ROUNDED * mu * r[0])
+        }
+        Cone::Sticking => r[0] >= 0.0,
+        Cone::Rolling { .. } | Cone::Bilateral { .. } => false,
+    }
+}
+
+/// Returns w_c dist(r, K), m/s.
+#[cold]
+#[inline(never)]
+fn outside<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, c: usize, r: &Vector<D>) -> f64 {
+    let Measured { cone, w, r, .. } = in_one_unit(problem, c, &[0.0; D], r);
+    w * cone.distance(&r)
+}
+
+/// The positive part; NaN stays NaN, which `f64::max` would hide.
+#[inline(always)]
+fn positive(x: f64) -> f64 {
+    if x < 0.0 { 0.0 } else { x }
 }
 
 /// The same of a bilateral constraint: only what is held counts, and its velocity in whichever direction is a violation.
 #[cold]
 fn eps_glob_bilateral<const D: usize>(cone: Cone, claimed: &Vector<D>, u: &Vector<D>, r: &Vector<D>) -> EpsGlob {
     let (claimed, u) = (seen(cone, claimed), seen(cone, u));
-    EpsGlob { motion: norm(&sub(&claimed, &u)), bipotential: dot(&claimed, r).abs(), penetration: norm(&claimed) }
+    EpsGlob { motion: norm(&sub(&claimed, &u)), bipotential: dot(&claimed, r).abs(), penetration: norm(&claimed), cone: 0.0 }
 }
 
 /// The components that a bilateral constraint holds. Such constraints are few: kept out of the way of the many contacts.
@@ -147,8 +117,8 @@ fn seen<const D: usize>(cone: Cone, u: &Vector<D>) -> Vector<D> {
 /// w ‖r − P_K(r − û/w)‖ at one contact.
 #[inline(always)]
 fn natural<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
-    if matches!(cone, Cone::Signorini) && w > 0.0 {
-        return (w * (r[0] - (r[0] - u[0] / w).max(0.0))).abs();
+    if matches!(cone, Cone::Signorini) && w > 0.0 && r[1..].iter().all(|&x| x == 0.0) {
+        return (w * (r[0] - positive(r[0] - u[0] / w))).abs();
     }
     natural_in_cone(cone, w, u, r)
 }
@@ -167,10 +137,12 @@ pub fn measure<O: Operator<D>, const D: usize>(
     claimed: Option<&[Vector<D>]>,
 ) -> Residual {
     let parts = fold(0..problem.len(), &|range| measured(problem, state, r, claimed, range), &Measures::with);
-    let Measures { eps, plain, motion, outside, power, speeds, errors, worst } = parts;
+    let Measures { eps, plain, motion, outside, power, speeds, pushes, errors, error, worst } = parts;
     Residual {
         eps_glob: eps.mean(problem.len()),
         scaled: ratio(errors, speeds),
+        error: error / problem.len().max(1) as f64,
+        rounding: 64.0 * f64::EPSILON * if speeds > 0.0 { (pushes / speeds).sqrt() } else { 0.0 },
         siconos: plain.ratio(),
         motion: ratio(motion, speeds),
         cone: ratio(outside, speeds),
@@ -188,7 +160,11 @@ struct Measures {
     outside: f64,
     power: f64,
     speeds: f64,
+    /// Σ (w_c ‖r_c‖)².
+    pushes: f64,
+    /// Σ e_c² and Σ e_c.
     errors: f64,
+    error: f64,
     worst: Option<Worst>,
 }
 
@@ -201,7 +177,9 @@ impl Measures {
         self.outside += other.outside;
         self.power += other.power;
         self.speeds += other.speeds;
+        self.pushes += other.pushes;
         self.errors += other.errors;
+        self.error += other.error;
         other.worst.into_iter().for_each(|worst| self.meet(worst));
         self
     }
@@ -225,17 +203,20 @@ fn measured<O: Operator<D>, const D: usize>(
     let mut all = Measures::default();
     for c in range {
         let velocity = problem.velocity(state, c);
-        all.eps.add(&eps_glob(problem.cones[c], claimed.map_or(&velocity, |claimed| &claimed[c]), &velocity, &r[c]));
+        all.eps.add(&eps_glob(problem, c, claimed.map_or(&velocity, |claimed| &claimed[c]), &velocity, &r[c]));
         all.plain.add(problem, c, &velocity, &r[c]);
         let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
         all.speeds += squared(&q) + squared(&u);
+        all.pushes += w * w * squared(&r);
         all.motion += claimed.map_or(0.0, |claimed| squared(&sub(&in_one_unit(problem, c, &claimed[c], &r).u, &u)));
         let half_line = D == 1 && !matches!(cone, Cone::Bilateral { .. });
         let (beyond, normalised) = if half_line { pair_of_one(w, u[0], r[0]) } else { pair_of_cones(cone, w, &u, &r) };
         all.outside += beyond * beyond;
         all.power += normalised * normalised;
-        let error = natural(cone, w, &u, &r);
+        // A projection may turn NaN into zero; zero times what is not finite is NaN.
+        let error = natural(cone, w, &u, &r) + 0.0 * (u.iter().sum::<f64>() + r.iter().sum::<f64>());
         all.errors += error * error;
+        all.error += error;
         all.meet(Worst { contact: c, error });
     }
     all
@@ -247,14 +228,15 @@ fn pair_of_cones<const D: usize>(cone: Cone, w: f64, u: &Vector<D>, r: &Vector<D
     let hat = cone.hat(u);
     let beyond = w * cone.distance(r) + norm(&cone.nearest(&hat.map(|x| -x)));
     let sizes = w * norm(r) + norm(&hat);
-    (beyond, if sizes > 0.0 { w * dot(&hat, r) / sizes } else { 0.0 })
+    // A size that is NaN is not zero.
+    (beyond, if sizes == 0.0 { 0.0 } else { w * dot(&hat, r) / sizes })
 }
 
 /// The same of numbers: what is outside of a half line, and a product.
 #[inline]
 fn pair_of_one(w: f64, u: f64, r: f64) -> (f64, f64) {
     let sizes = w * r.abs() + u.abs();
-    (w * (-r).max(0.0) + (-u).max(0.0), if sizes > 0.0 { w * u * r / sizes } else { 0.0 })
+    (w * positive(-r) + positive(-u), if sizes == 0.0 { 0.0 } else { w * u * r / sizes })
 }
 
 /// The sums of Siconos's residual.
@@ -318,7 +300,7 @@ fn mean_eps_glob<O: Operator<D>, const D: usize>(
     let mut sum = EpsGlob::default();
     for c in 0..problem.len() {
         let u = problem.velocity(state, c);
-        sum.add(&eps_glob(problem.cones[c], claimed.map_or(&u, |claimed| &claimed[c]), &u, &r[c]));
+        sum.add(&eps_glob(problem, c, claimed.map_or(&u, |claimed| &claimed[c]), &u, &r[c]));
     }
     sum.mean(problem.len())
 }

@@ -3,6 +3,8 @@
 use crate::{GlobalMethod, Kernels, LocalMethod, Order, Row};
 
 /// Which measure stops the sweeps.
+///
+/// Whichever it is, an answer has converged only if the law holds for its impulses: [`crate::Residual::certifies`] gives the bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(
     feature = "schema",
@@ -10,7 +12,7 @@ use crate::{GlobalMethod, Kernels, LocalMethod, Order, Row};
     serde(rename_all = "snake_case")
 )]
 pub enum Criterion {
-    /// The paper's ε_glob (eq. 42).
+    /// The paper's ε_glob (eq. 42), with the distance of the impulses from their cones.
     #[default]
     EpsGlob,
     /// The scaled residual, which does not depend on units; see [`crate::residual`].

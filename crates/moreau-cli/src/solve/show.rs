@@ -69,6 +69,8 @@ impl Row {
             "global": self.settings.global.name(),
             "local": self.settings.local.name(),
             "eps_glob": residual.eps_glob.total(),
+            "eps_glob_cone": residual.eps_glob.cone,
+            "mean_error": residual.error,
             "motion": residual.motion,
             "cone": residual.cone,
             "complementarity": residual.complementarity,
@@ -89,15 +91,17 @@ impl Row {
         let mut rows = vec![
             row("status", format!("{}, sweeps or steps: {sweeps}, {reached}", status.name())),
             row("scaled", format!("{:.3e}, without units", residual.scaled)),
+            row("error", format!("{:.3e}, a velocity: the mean over the contacts", residual.error)),
             row("siconos", format!("{:.3e}, as Siconos measures", residual.siconos)),
             row(
                 "eps_glob",
                 format!(
-                    "{:.3e} = motion {:.1e} + bipotential {:.1e} + penetration {:.1e}, in the file's units",
+                    "{:.3e} = motion {:.1e} + bipotential {:.1e} + penetration {:.1e} + cone {:.1e}, in the file's units",
                     eps.total(),
                     eps.motion,
                     eps.bipotential,
-                    eps.penetration
+                    eps.penetration,
+                    eps.cone
                 ),
             ),
             row("motion", format!("{:.3e}, claimed velocities from W r + q", residual.motion)),

@@ -22,7 +22,7 @@ mod factors;
 mod through_bodies;
 
 use super::Work;
-use super::steps::{Best, product, scales};
+use super::steps::{after_step, product, scales};
 use crate::block::{Vector, axpy, norm, sub};
 use crate::{Operator, Problem, Status};
 use factors::{System, ThroughContacts};
@@ -58,9 +58,8 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
     for (r, cone) in work.r.iter_mut().zip(work.problem.cones) {
         *r = cone.nearest(r);
     }
-    let mut best = Best::new(work);
     // At rest the impulses of the last step mostly are the answer, and nothing need be factorised.
-    if let Some(status) = work.judge.certify(&mut work.scratch.state, work.r, None) {
+    if let Some(status) = work.certify() {
         return status;
     }
     let Some(mut system) = system(work.problem) else { return Status::Unsuited };
@@ -71,14 +70,14 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
     }
     loop {
         variables.step(work, &*system);
-        if let Some(status) = best.after_step(work) {
+        if let Some(status) = after_step(work) {
             return status;
         }
         let ratio = (variables.primal / variables.dual).sqrt();
         if work.judge.sweeps - changed_at >= wait && ratio.is_finite() && ratio > 0.0 && (ratio > WRONG || ratio * WRONG < 1.0) {
             variables.change(ratio);
             if !system.factorise(variables.rho) {
-                return best.end(work, Status::Stalled);
+                return Status::Stalled;
             }
             changed_at = work.judge.sweeps;
             wait += wait / 2;

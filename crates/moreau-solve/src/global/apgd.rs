@@ -21,7 +21,7 @@
 //! rank deficient.
 
 use super::Work;
-use super::steps::{Best, inner, inverse, product, scales, weighted};
+use super::steps::{after_step, inner, inverse, product, scales, weighted};
 use crate::block::{Vector, axpy, dot, sub};
 use crate::{Operator, Status};
 
@@ -59,14 +59,13 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
     for (r, cone) in work.r.iter_mut().zip(work.problem.cones) {
         *r = cone.nearest(r);
     }
-    let mut best = Best::new(work);
     let mut points = Points::new(work);
     let (mut since, mut first) = (work.judge.sweeps, None);
     points.set_shift(work);
     loop {
         points.step(work);
         points.momentum(work);
-        if let Some(status) = best.after_step(work) {
+        if let Some(status) = after_step(work) {
             return status;
         }
         let steps = work.judge.sweeps;

@@ -21,8 +21,7 @@
 //! Sweeps are by far the cheapest and end most problems; a step costs some fifty of them and ends those on which they crawl. Where both
 //! stall, another start or another order of the contacts is another method: solutions are the same, the paths to them are not.
 
-use super::{Work, active_set, admm, keep};
-use crate::block::Vector;
+use super::{Work, active_set, admm};
 use crate::report::Stage;
 use crate::{GlobalMethod, LocalMethod, Operator, Order, Status};
 
@@ -36,29 +35,27 @@ const STEPS: u64 = 60;
 /// each step of the active set method takes tenths of a second, and many.
 const SMALL: usize = 600;
 
-/// Stages until the judge says stop; the best impulses of all are the answer.
+/// Stages until the judge says stop.
 pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
     if admm::suits(work.problem) { indeterminate(work) } else { determinate(work) }
 }
 
 /// The turns of sweeps and ADMM, and what follows where they do not end.
 fn indeterminate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
-    let mut kept = Kept { error: f64::INFINITY, impulses: Vec::new() };
     let turns = INDETERMINATE.iter().flat_map(|&sweeps| [(GlobalMethod::Accelerated, sweeps), (GlobalMethod::Admm, STEPS)]);
     for (method, budget) in turns {
         let end = stage(work, method, |work| limited(work, method, budget));
-        kept.see(work);
         // Where factors are too large or fail, sweeps go on.
         if let Some(status) = end.filter(|status| !matches!(status, Status::Unsuited | Status::Stalled)) {
-            return kept.ended(work, status);
+            return status;
         }
     }
-    work.r.copy_from_slice(&kept.impulses);
+    work.go_back();
     if work.problem.len() * D <= SMALL {
         return determinate(work);
     }
     let end = stage(work, GlobalMethod::Accelerated, |work| Some(work.run(GlobalMethod::Accelerated)));
-    kept.ended(work, end.unwrap_or(Status::Stalled))
+    end.unwrap_or(Status::Stalled)
 }
 
 fn determinate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
@@ -67,7 +64,6 @@ fn determinate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Sta
     let mut budget = (100 + unknowns as u64 / 4).min(MOST_FIRST_SWEEPS);
     let first = work.r.to_vec();
     let mut stored = None;
-    let mut kept = Kept { error: f64::INFINITY, impulses: Vec::new() };
     for round in 0_u64.. {
         if round >= 2 {
             work.settings = crate::Settings { order: Order::Shuffled(round), local: LocalMethod::Exact, ..given };
@@ -77,15 +73,15 @@ fn determinate<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Sta
             let stored = stored.get_or_insert_with(|| work.problem.operator.stored().into_owned());
             end = stage(work, GlobalMethod::ActiveSet, |work| active_set::steps(work, stored));
         }
-        kept.see(work);
         if end.is_none() && round == 0 && unknowns <= active_set::LARGEST {
             work.r.copy_from_slice(&first);
             end = stage(work, GlobalMethod::ActiveSet, |work| limited(work, GlobalMethod::ActiveSet, 4 * budget));
-            kept.see(work);
-            work.r.copy_from_slice(&kept.impulses);
+            if end.is_none() {
+                work.go_back();
+            }
         }
         if let Some(status) = end {
-            return kept.ended(work, status);
+            return status;
         }
         budget *= 2;
     }
@@ -131,32 +127,4 @@ fn stage<'a, O: Operator<D>, const D: usize>(
     let (sweeps, error) = (work.judge.sweeps - before, work.judge.error);
     work.stages.push(Stage { method, sweeps, error, status: end.unwrap_or(Status::Stalled) });
     end
-}
-
-/// The best impulses of all stages, and their criterion.
-struct Kept<const D: usize> {
-    error: f64,
-    impulses: Vec<Vector<D>>,
-}
-
-impl<const D: usize> Kept<D> {
-    /// Takes the impulses of now where they are better, or the first.
-    fn see<O: Operator<D>>(&mut self, work: &Work<'_, O, D>) {
-        if work.judge.error < self.error || self.impulses.is_empty() {
-            self.error = work.judge.error;
-            keep(&mut self.impulses, work.r);
-        }
-    }
-
-    /// The status, with the best impulses put in place where the last ones are not the answer.
-    fn ended<O: Operator<D>>(&self, work: &mut Work<'_, O, D>, status: Status) -> Status {
-        if status != Status::Converged
-            && !self.impulses.is_empty()
-            && (work.judge.error.is_nan() || self.error < work.judge.error)
-        {
-            work.r.copy_from_slice(&self.impulses);
-            work.scratch.claimed.clear();
-        }
-        status
-    }
 }

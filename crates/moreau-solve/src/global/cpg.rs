@@ -19,7 +19,7 @@
 //! a body. With friction nothing is proved.
 
 use super::Work;
-use super::steps::{Best, inner, inverse, product, scales, weighted};
+use super::steps::{after_step, inner, inverse, product, scales, weighted};
 use crate::block::{Vector, axpy, dot, mul, sub};
 use crate::{Operator, Status};
 
@@ -50,12 +50,11 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
     for (r, cone) in work.r.iter_mut().zip(work.problem.cones) {
         *r = cone.nearest(r);
     }
-    let mut best = Best::new(work);
     let mut directions = Directions::new(work);
     loop {
         directions.turn(work);
         directions.step(work);
-        if let Some(status) = best.after_step(work) {
+        if let Some(status) = after_step(work) {
             return status;
         }
     }

@@ -1,5 +1,8 @@
 //! When a solve ends: it is measured here, by [`crate::residual`], and the method that runs only asks whether to go on.
+//!
+//! [`Residual::certifies`] is the only rule by which a solve has converged, and this is the only place that applies it.
 
+use super::best::Best;
 use crate::block::Vector;
 use crate::report::{HistoryRow, Status};
 use crate::residual::{criterion, measure};
@@ -21,14 +24,18 @@ pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
     pub history: Vec<HistoryRow>,
     /// Visits of the last sweep in which the local solver did not reach its own end.
     pub unfinished_visits: u64,
-    /// What was measured of a state made anew from the impulses, after the sweep `measured_at`.
+    /// What was measured of a state made again from the impulses, after the sweep `measured_at`.
     pub certificate: Option<Residual>,
+    /// The best impulses that were measured.
+    pub best: Best<D>,
     next_check: u64,
     skip_to: u64,
 }
 
 impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
-    pub(crate) fn new(problem: &'a Problem<'a, O, D>, settings: &'a Settings) -> Self {
+    /// `best` is memory of an earlier solve.
+    pub(crate) fn new(problem: &'a Problem<'a, O, D>, settings: &'a Settings, mut best: Best<D>) -> Self {
+        best.forget();
         // A limit beyond what a clock can hold is none.
         let deadline = settings.max_seconds.and_then(|s| Instant::now().checked_add(Duration::try_from_secs_f64(s).ok()?));
         let (sweeps, limit) = (0, settings.max_sweeps);
@@ -43,6 +50,7 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
             history: Vec::new(),
             unfinished_visits: 0,
             certificate: None,
+            best,
             next_check: 1,
             skip_to: 0,
         }
@@ -78,34 +86,49 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
         if self.error <= self.settings.tolerance && self.confirmed(state, r, claimed) {
             return Some(Status::Converged);
         }
-        self.unmet()
+        self.unmet(r, claimed)
     }
 
-    /// Makes `state` anew from the impulses and measures that: how the method ends, if it does.
+    /// Makes `state` again from the impulses and measures that: how the method ends, if it does.
     pub(crate) fn certify(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
         let met = self.confirmed(state, r, claimed);
         self.measured_at = self.sweeps;
-        if let Some(residual) = self.certificate.filter(|_| self.settings.history) {
-            self.history.push(HistoryRow { sweep: self.sweeps, residual });
-        }
-        if met { Some(Status::Converged) } else { self.unmet() }
+        if met { Some(Status::Converged) } else { self.unmet(r, claimed) }
+    }
+
+    /// Measures impulses that are not where the method stands, and keeps them if they are the best.
+    pub(crate) fn consider(&mut self, state: &mut O::State, r: &[Vector<D>]) {
+        self.problem.operator.start(r, state);
+        self.best.see(self.weigh(state, r, None), r, None);
     }
 
     fn record(&mut self, state: &O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) {
         if self.settings.history {
-            let residual = measure(self.problem, state, r, claimed);
-            self.history.push(HistoryRow { sweep: self.sweeps, residual });
+            self.note(measure(self.problem, state, r, claimed));
         }
     }
 
-    /// How the method ends although the criterion is not met.
-    fn unmet(&self) -> Option<Status> {
-        match () {
+    /// Writes the row of this sweep; what was measured later of the same sweep takes its place.
+    fn note(&mut self, residual: Residual) {
+        let row = HistoryRow { sweep: self.sweeps, residual };
+        match self.history.last_mut().filter(|last| last.sweep == row.sweep) {
+            Some(last) => *last = row,
+            None => self.history.push(row),
+        }
+    }
+
+    /// How the method ends although the answer does not count. If the solve goes on its best impulses are kept.
+    fn unmet(&mut self, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
+        let status = match () {
             () if !self.error.is_finite() => Some(Status::NotFinite),
             () if self.sweeps >= self.limit => Some(Status::MaxSweeps),
             () if self.is_late() => Some(Status::OutOfTime),
             () => None,
+        };
+        if status.is_none() || self.sweeps < self.settings.max_sweeps {
+            self.best.see(self.error, r, claimed);
         }
+        status
     }
 
     /// Whether the clock has run out.
@@ -129,10 +152,22 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
 
     /// A state has gathered the rounding of every visit: the verdict is on the impulses alone.
     fn confirmed(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> bool {
+        let Settings { criterion, tolerance, history, .. } = *self.settings;
         self.problem.operator.start(r, state);
         let residual = measure(self.problem, state, r, claimed);
-        self.error = residual.of(self.settings.criterion);
+        // Where another measure is not finite the answer cannot be judged.
+        self.error = if residual.is_finite() { residual.of(criterion) } else { f64::NAN };
         self.certificate = Some(residual);
-        self.error <= self.settings.tolerance
+        if history {
+            self.note(residual);
+        }
+        residual.certifies(criterion, tolerance)
+    }
+
+    /// What the last certificate lacks: the criterion, or where that is met the error in the law, on the scale of the tolerance.
+    pub(crate) fn hurdle(&self) -> f64 {
+        let Settings { criterion, tolerance, .. } = *self.settings;
+        let refused = self.certificate.filter(|_| self.error <= tolerance);
+        refused.map_or(self.error, |residual| residual.hurdle(criterion, tolerance))
     }
 }

@@ -21,7 +21,7 @@
 mod tableau;
 
 use super::Work;
-use super::steps::{Best, inverse, scales};
+use super::steps::{after_step, inverse, scales};
 use crate::block::Vector;
 use crate::{Cone, Delassus, Operator, Problem, Status};
 use faer::Mat;
@@ -44,16 +44,15 @@ const REFINEMENTS: usize = 3;
 /// Pivots until the end.
 pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Status {
     let Some(lcp) = Lcp::new(work.problem) else { return Status::Unsuited };
-    let mut best = Best::new(work);
     for attempt in 0..ATTEMPTS {
         let mut tableau = Tableau::new(&lcp, attempt);
-        match pivots(work, &lcp, &mut tableau, &mut best) {
-            End::Solved => return finish(work, &lcp, &tableau, &best),
+        match pivots(work, &lcp, &mut tableau) {
+            End::Solved => return finish(work, &lcp, &tableau),
             End::Ray => {}
             End::Told(status) => return status,
         }
     }
-    best.end(work, Status::Stalled)
+    Status::Stalled
 }
 
 /// How the pivots from one covering vector end.
@@ -64,7 +63,7 @@ enum End {
     Told(Status),
 }
 
-fn pivots<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, lcp: &Lcp, tableau: &mut Tableau, best: &mut Best) -> End {
+fn pivots<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, lcp: &Lcp, tableau: &mut Tableau) -> End {
     let mut entering = tableau.first();
     while let Some(column) = entering {
         let Some(row) = tableau.leaving(column) else { return End::Ray };
@@ -72,7 +71,7 @@ fn pivots<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, lcp: &Lcp, 
         entering = tableau.complement(column);
         if entering.is_some() {
             lcp.write(&tableau.values(), work.r);
-            if let Some(status) = best.after_step(work) {
+            if let Some(status) = after_step(work) {
                 return End::Told(status);
             }
         }
@@ -81,11 +80,10 @@ fn pivots<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, lcp: &Lcp, 
 }
 
 /// The answer of the last basis.
-fn finish<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, lcp: &Lcp, tableau: &Tableau, best: &Best) -> Status {
+fn finish<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>, lcp: &Lcp, tableau: &Tableau) -> Status {
     lcp.write(&lcp.polished(&tableau.values()), work.r);
     work.problem.operator.start(work.r, &mut work.scratch.state);
-    let status = work.after_step().unwrap_or(Status::Stalled);
-    if work.judge.error <= best.error { status } else { best.end(work, status) }
+    work.after_step().unwrap_or(Status::Stalled)
 }
 
 /// The problem of complementarity.

@@ -1,9 +1,9 @@
-//! What methods of steps share: the scale of each contact, products with W, and the best impulses seen.
+//! What methods of steps share: the scale of each contact, products with W, and the question whether to go on.
 //!
 //! A step takes all contacts together: r ← P_K(r − t û/w), with the w_c of the scaled residual in the place of a mass. So a step
 //! has no unit, t is near one, and a problem in millimetres takes the steps of one in metres.
 
-use super::{Work, keep};
+use super::Work;
 use crate::block::{Vector, dot};
 use crate::residual::mean_diagonal;
 use crate::{Operator, Problem, Status};
@@ -43,35 +43,8 @@ pub(super) fn weighted<const D: usize>(w: &[f64], a: &[Vector<D>], b: &[Vector<D
     w.iter().zip(a).zip(b).map(|((w, a), b)| w * dot(a, b)).sum()
 }
 
-/// Keeps the best of the impulses that were measured, in the scratch.
-pub(super) struct Best {
-    /// Its criterion.
-    pub error: f64,
-}
-
-impl Best {
-    /// Knows nothing of the first guess but its impulses.
-    pub(super) fn new<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Self {
-        keep(&mut work.scratch.best, work.r);
-        Self { error: f64::INFINITY }
-    }
-
-    /// Asks the judge after a step. Where the method has to end otherwise than by the criterion, the best impulses are its answer.
-    pub(super) fn after_step<O: Operator<D>, const D: usize>(&mut self, work: &mut Work<'_, O, D>) -> Option<Status> {
-        work.problem.operator.start(work.r, &mut work.scratch.state);
-        let status = work.after_sweep();
-        if work.judge.measured_at == work.judge.sweeps && work.judge.error < self.error {
-            self.error = work.judge.error;
-            keep(&mut work.scratch.best, work.r);
-        }
-        status.map(|status| self.end(work, status))
-    }
-
-    /// Ends with `status`.
-    pub(super) fn end<O: Operator<D>, const D: usize>(&self, work: &mut Work<'_, O, D>, status: Status) -> Status {
-        if status != Status::Converged {
-            work.r.copy_from_slice(&work.scratch.best);
-        }
-        status
-    }
+/// Asks the judge after a step, about a state made again from the impulses.
+pub(super) fn after_step<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> Option<Status> {
+    work.problem.operator.start(work.r, &mut work.scratch.state);
+    work.after_sweep()
 }

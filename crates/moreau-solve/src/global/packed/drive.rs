@@ -100,7 +100,7 @@ impl<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize
         let settings = self.work.settings;
         let [sum, squares] = self.packing.watch();
         let exact = settings.criterion == Criterion::EpsGlob;
-        // The other two parts of ε_glob vanish for visits that obey the law; for another criterion the last certificate tells.
+        // The other three parts of ε_glob vanish for visits that obey the law; for another criterion the last certificate tells.
         let seen = if exact { sum / self.work.r.len() as f64 } else { squares.sqrt() };
         let sweeps = self.work.judge.sweeps;
         self.next_look = sweeps + (sweeps / 4).max(4);
@@ -111,12 +111,19 @@ impl<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize
             let Work { r, scratch, judge, .. } = &mut *self.work;
             self.packing.read(self.balls, r, &mut scratch.claimed);
             if let Some(status) = judge.certify(&mut scratch.state, r, Some(&scratch.claimed)) {
+                if status != Status::Converged {
+                    self.offer_best();
+                }
                 return Some(status);
             }
             error = judge.error;
-            self.packing.scale = error / seen;
+            // Where the criterion is met and the law is not, it is the law that the sweeps are to end by.
+            let hurdle = judge.hurdle();
+            self.packing.scale = hurdle / seen;
+            self.packing.ratio = hurdle / change;
+        } else {
+            self.packing.ratio = error / change;
         }
-        self.packing.ratio = error / change;
         if error < self.best {
             (self.best, self.gained_at) = (error, sweeps);
             self.packing.best.clone_from(&self.packing.z);
@@ -130,8 +137,19 @@ impl<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize
         sweeps - self.gained_at >= self.patience.max(sweeps / 3)
     }
 
+    /// Lets the judge measure the best impulses, if they seem better than what it has. The last ones stay in place.
+    fn offer_best(&mut self) {
+        let Work { r, scratch, judge, .. } = &mut *self.work;
+        if self.best < judge.best.error && (judge.error.is_nan() || self.best < judge.error) {
+            self.packing.read_impulses(self.balls, &self.packing.best, r);
+            judge.consider(&mut scratch.state, r);
+            self.packing.read_impulses(self.balls, &self.packing.z, r);
+        }
+    }
+
     /// Back to the best impulses, for some plain sweeps.
     fn restore(&mut self) {
+        self.offer_best();
         self.packing.z.clone_from(&self.packing.best);
         self.packing.before.clone_from(&self.packing.best);
         self.packing.bodies(self.balls);

@@ -58,14 +58,22 @@ impl<K: Kernel<B, C>, const B: usize, const C: usize> Packing<K, B, C> {
 
     /// Writes the impulses into `r`, and the claimed velocities into `claimed`, both by contact.
     pub(super) fn read<const D: usize>(&self, balls: &Balls<D>, r: &mut [Vector<D>], claimed: &mut [Vector<D>]) {
-        let of = |all: &[[Four; C]], c: usize| {
-            let slot = self.layout.slots[c] as usize;
-            let group = &all[slot / LANES];
-            std::array::from_fn(|k| group[k].0[slot % LANES])
-        };
+        self.read_impulses(balls, &self.z, r);
         let contact = |c: usize| &balls.contacts[c];
-        tasks::each(r, |c, r| *r = K::unpack(contact(c), &of(&self.z, c), 1.0 / K::scale(contact(c))));
-        tasks::each(claimed, |c, u| *u = K::unpack(contact(c), &of(&self.claimed, c), K::scale(contact(c))));
+        tasks::each(claimed, |c, u| *u = K::unpack(contact(c), &self.of(&self.claimed, c), K::scale(contact(c))));
+    }
+
+    /// Writes packed impulses into `r`, by contact.
+    pub(super) fn read_impulses<const D: usize>(&self, balls: &Balls<D>, packed: &[[Four; C]], r: &mut [Vector<D>]) {
+        let contact = |c: usize| &balls.contacts[c];
+        tasks::each(r, |c, r| *r = K::unpack(contact(c), &self.of(packed, c), 1.0 / K::scale(contact(c))));
+    }
+
+    /// What packed numbers hold for contact `c`.
+    fn of(&self, packed: &[[Four; C]], c: usize) -> [f64; C] {
+        let slot = self.layout.slots[c] as usize;
+        let group = &packed[slot / LANES];
+        std::array::from_fn(|k| group[k].0[slot % LANES])
     }
 }
 
