@@ -18,7 +18,8 @@ mod sweep;
 use crate::block::Vector;
 use crate::local::{LocalSolver, WithLocal, with_local};
 use crate::report::Stage;
-use crate::{Operator, Problem, Report, Row, Settings, Status};
+use crate::residual::measure;
+use crate::{Operator, Problem, Report, Residual, Row, Settings, Status};
 use best::settle;
 use judge::Judge;
 
@@ -233,4 +234,15 @@ pub fn solve<O: Operator<D>, const D: usize>(
         stages.push(Stage { method: settings.global, sweeps, error: residual.of(settings.criterion), status });
     }
     Report { status, sweeps, stages, residual, unfinished_visits, history }
+}
+
+/// Measures the impulses `r` without changing them. The scratch then holds what they do, as after [`solve`].
+pub fn certify<O: Operator<D>, const D: usize>(
+    problem: &Problem<'_, O, D>,
+    r: &[Vector<D>],
+    scratch: &mut Scratch<O::State, D>,
+) -> Residual {
+    scratch.claimed.clear();
+    problem.operator.start(r, &mut scratch.state);
+    measure(problem, &scratch.state, r, None)
 }

@@ -83,6 +83,18 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
     /// v_free and v⁺; `torque` is h τ in the world, as the last part of a load.
     fn settle(mass: &[f64; N], rotations: [Self::Rotation; 3], velocities: [&[f64; N]; 3], torque: &[f64; N]) -> [f64; N];
 
+    /// The derivative of the rotation of the next prediction, R⁺ cay(h (1 − θ) ω_s), with respect to the spin ω⁺ in `velocities`: for each
+    /// component of ω⁺ the turn in the world (rad) that it makes, over h. The arguments are those of [`settle`](Self::settle), with
+    /// what it gives in `settled`.
+    fn response(
+        mass: &[f64; N],
+        rotations: [Self::Rotation; 3],
+        velocities: [&[f64; N]; 3],
+        settled: &[f64; N],
+        torque: &[f64; N],
+        step: (f64, f64),
+    ) -> [[f64; 3]; 3];
+
     /// A load given in the world (force, then torque) as seen in generalised coordinates of a body so turned.
     fn load_in_body(rotation: Self::Rotation, load: &[f64; N]) -> [f64; N];
 

@@ -54,6 +54,36 @@ pub enum StepError {
         /// Sweeps done.
         sweeps: u64,
     },
+    /// A joint stays open, and the policy is to stop or halving did not help.
+    #[error(
+        "joint {joint} stays open by {error:.3e} m in the step to t = {time} s, where {bound:.3e} m are allowed; take a smaller time.step, \
+         or solver.on_failure = \"halve\""
+    )]
+    OpenJoint {
+        /// Time at the end of the step, s.
+        time: f64,
+        /// Index of the joint.
+        joint: usize,
+        /// Its error of position at the next prediction, m; angles times the arm of its bodies.
+        error: f64,
+        /// What is allowed: a millionth of the joint's size.
+        bound: f64,
+    },
+    /// Joints pull a body so hard that its swing between them is too fast for the step, and the policy is to stop or halving did not help.
+    #[error(
+        "the joints of body {body} pull it so hard in the step to t = {time} s that it swings by (h ω)² = {swing:.3}, where {allowed} are \
+         allowed; take a smaller time.step, or solver.on_failure = \"halve\""
+    )]
+    StrainedBody {
+        /// Time at the end of the step, s.
+        time: f64,
+        /// Index of the body.
+        body: usize,
+        /// (h ω)² of its swing.
+        swing: f64,
+        /// What a step resolves.
+        allowed: f64,
+    },
     /// A position or velocity is not a finite number.
     #[error("body {body} has a position or velocity that is not a finite number at t = {time} s; take a smaller time.step")]
     NotFinite {
@@ -76,7 +106,9 @@ impl StepError {
     /// The indices of the bodies that it speaks of.
     pub fn bodies(&self) -> Vec<usize> {
         match self {
-            Self::NotFinite { body, .. } | Self::Breach { breach: Breach::Domain { body, .. }, .. } => vec![*body],
+            Self::StrainedBody { body, .. }
+            | Self::NotFinite { body, .. }
+            | Self::Breach { breach: Breach::Domain { body, .. }, .. } => vec![*body],
             Self::Breach { breach: Breach::Penetration { bodies, .. }, .. } => bodies.to_vec(),
             _ => Vec::new(),
         }

@@ -49,6 +49,35 @@ impl<const D: usize> Placed<D> {
         }
     }
 
+    /// The exact derivative of the error of position in component `i`: with respect to the place (m) and to a small turn in the world
+    /// (rad) of the body on one side, whose centre is at `centre`. Unlike the row of H* it stays exact where the joint is open.
+    pub(crate) fn gradient(&self, part: Part, i: usize, side: usize, centre: &[f64; D]) -> ([f64; D], [f64; 3]) {
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        match part {
+            Part::Translation => {
+                let arm: [f64; D] = std::array::from_fn(|k| self.points[1][k] - centre[k]);
+                (self.directions[i].map(|x| sign * x), cross(&arm, &self.directions[i]).map(|x| sign * x))
+            }
+            Part::Rotation => ([0.0; D], self.turn_gradient(i, side)),
+        }
+    }
+
+    /// The derivative of e_i · c of (57) with respect to a turn of one side: (u × v) × w = v (u·w) − u (v·w), and e_i turns with the
+    /// first side.
+    fn turn_gradient(&self, i: usize, side: usize) -> [f64; 3] {
+        let [a, b] = &self.axes;
+        let (e, turned) = (self.spin_axis(i), self.turned());
+        let (used, share) = if self.kind == JointKind::Hinge { (1, 1.0) } else { (D, 0.5) };
+        let mut sum = if side == 0 { cross(&e, &turned) } else { [0.0; 3] };
+        for (a, b) in a.iter().zip(b).take(used) {
+            let (one, other, sign) = if side == 0 { (a, b, -1.0) } else { (b, a, 1.0) };
+            let along = (0..D).map(|k| one[k] * e[k]).sum::<f64>();
+            let cosine = dot(a, b);
+            (0..3).for_each(|k| sum[k] += sign * share * (cosine * e[k] - if k < D { other[k] * along } else { 0.0 }));
+        }
+        sum
+    }
+
     /// The error of position c: m, or the sine of an angle; zero in what is not held.
     pub(crate) fn error<const N: usize>(&self, part: Part) -> [f64; D] {
         let held = self.kind.held::<D, N>(part);

@@ -61,6 +61,21 @@ impl Space<2, 3> for Plane {
         *after
     }
 
+    fn response(
+        _: &[f64; 3],
+        _: [[f64; 2]; 3],
+        [v, _, after]: [&[f64; 3]; 3],
+        settled: &[f64; 3],
+        _: &[f64; 3],
+        (h, theta): (f64, f64),
+    ) -> [[f64; 3]; 3] {
+        // The Cayley map turns by 2 arctan(a/2): da/(1 + a²/4).
+        let slope = |a: f64| 1.0 / (1.0 + 0.25 * a * a);
+        let mean = theta * after[2] + (1.0 - theta) * v[2];
+        let turn = theta * slope(h * mean) + (1.0 - theta) * slope(h * (1.0 - theta) * settled[2]);
+        [[0.0, 0.0, turn], [0.0; 3], [0.0; 3]]
+    }
+
     fn load_in_body(_: [f64; 2], load: &[f64; 3]) -> [f64; 3] {
         *load
     }

@@ -109,6 +109,28 @@ impl Space<3, 6> for Solid {
         [after[0], after[1], after[2], settled.x, settled.y, settled.z]
     }
 
+    fn response(
+        mass: &[f64; 6],
+        [before, middle, end]: [DQuat; 3],
+        [v, free, after]: [&[f64; 6]; 3],
+        settled: &[f64; 6],
+        torque: &[f64; 6],
+        (h, theta): (f64, f64),
+    ) -> [[f64; 3]; 3] {
+        let inertia = spin(mass);
+        let momentum = before * (inertia * spin(v)) + spin(torque) + middle * (inertia * (spin(after) - spin(free)));
+        let (first, second) = (h * (theta * spin(after) + (1.0 - theta) * spin(v)), h * (1.0 - theta) * spin(settled));
+        // cay(a + δ) = exp(κ) cay(a) with κ = (δ + ½ a × δ)/(1 + |a|²/4).
+        let cayley = |a: DVec3, d: DVec3| (d + 0.5 * a.cross(d)) / (1.0 + 0.25 * a.length_squared());
+        let column = |e: DVec3| -> [f64; 3] {
+            let turned = before * cayley(first, theta * e);
+            let change = middle * (inertia * e) + h * momentum.cross(turned);
+            let spun = (end.conjugate() * change) / inertia;
+            (turned + end * cayley(second, (1.0 - theta) * spun)).into()
+        };
+        [column(DVec3::X), column(DVec3::Y), column(DVec3::Z)]
+    }
+
     fn load_in_body(rotation: DQuat, load: &[f64; 6]) -> [f64; 6] {
         let torque = rotation.conjugate() * spin(load);
         [load[0], load[1], load[2], torque.x, torque.y, torque.z]

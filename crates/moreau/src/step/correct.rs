@@ -10,8 +10,8 @@
 //! is made; what weights gain in height is booked as work.
 
 mod doubt;
+mod held;
 
-use super::integrate::moved;
 use super::localise::{margins, speed};
 use super::record::energies;
 use super::system::Kind;
@@ -21,7 +21,8 @@ use crate::contacts::Contact;
 use crate::shape::Shape;
 use crate::space::Space;
 use crate::world::World;
-use moreau_solve::{Criterion, Settings};
+use held::{Held, shift};
+use moreau_solve::{Criterion, Settings, Status};
 use std::time::Instant;
 
 /// How often the problem, which is linear in δ, is posed anew in one step: of a thousand stones that land half of what is left remains each time.
@@ -40,13 +41,15 @@ pub(super) struct Correction<const D: usize, const N: usize> {
     reach: Vec<f64>,
     found: Vec<Contact<D>>,
     contacts: Vec<Localised<D>>,
+    held: Held<D, N>,
     /// How far the bodies came last, m and rad.
     displacement: Vec<[f64; N]>,
 }
 
 impl<const D: usize, const N: usize> Default for Correction<D, N> {
     fn default() -> Self {
-        Self { doubtful: Vec::new(), reach: Vec::new(), found: Vec::new(), contacts: Vec::new(), displacement: Vec::new() }
+        let (doubtful, reach, found, contacts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { doubtful, reach, found, contacts, held: Held::default(), displacement: Vec::new() }
     }
 }
 
@@ -67,6 +70,7 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
     let since = world.settings.h * world.settings.theta;
     work.correction.displacement.clear();
     work.correction.displacement.extend(world.bodies.velocity.iter().map(|v| v.map(|x| since * x)));
+    work.correction.held.begin(world);
     for round in 0..ROUNDS {
         let clock = Instant::now();
         detect(world, work, part);
@@ -75,7 +79,15 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
         if !found.iter().any(|c| -c.gap > allowed(&world.bodies, pair_of(c), part)) {
             break;
         }
-        displace(world, work, part, if round < TURNING { Kind::Normal } else { Kind::Central });
+        let kind = match round {
+            // What is joined cannot give way without turning.
+            _ if !world.joints.is_empty() => Kind::Full,
+            ..TURNING => Kind::Normal,
+            _ => Kind::Central,
+        };
+        if !displace(world, work, part, kind) {
+            break;
+        }
     }
     let (_, after) = energies(&world.bodies, &world.gravity);
     work.ledger.bring(after - before);
@@ -110,13 +122,16 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
     work.joints.part(&world.joints, &mut correction.found);
 }
 
-/// Moves the bodies by the least displacement that helps.
+/// Moves the bodies by the least displacement that helps; false where joints leave them no way out.
 fn displace<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
     part: f64,
     kind: Kind,
-) {
+) -> bool {
+    if kind == Kind::Full {
+        work.correction.held.place(world);
+    }
     let (bodies, correction) = (&mut world.bodies, &mut work.correction);
     correction.contacts.clear();
     correction.contacts.extend(correction.found.iter().map(|contact| {
@@ -124,16 +139,19 @@ fn displace<S: Space<D, N>, const D: usize, const N: usize>(
         room[0] = contact.gap + 0.5 * allowed(bodies, pair_of(contact), part);
         Localised::new(*contact, S::frame(contact.normal), None, [[0.0; D], room, [0.0; D]])
     }));
+    work.systems.get(kind).fill(bodies, &bodies.pose, &correction.contacts, &mut work.curve);
+    if kind == Kind::Full {
+        work.systems.full.join(bodies, &correction.held.blocks);
+    }
     let system = work.systems.get(kind);
-    system.fill(bodies, &bodies.pose, &correction.contacts, &mut work.curve);
     let settings = Settings { criterion: Criterion::Scaled, tolerance: TOLERANCE, history: false, ..world.settings.solver };
-    system.solve(&settings);
+    let status = system.solve(&settings).status;
     correction.displacement.clear();
     correction.displacement.resize(bodies.len(), [0.0; N]);
     system.deposit(bodies, &bodies.pose, &mut correction.displacement);
-    for (pose, displacement) in bodies.pose.iter_mut().zip(&correction.displacement) {
-        if displacement.iter().all(|x| x.is_finite()) && *displacement != [0.0; N] {
-            *pose = moved::<S, D, N>(pose, displacement, 1.0);
-        }
+    shift(bodies, &correction.displacement);
+    if kind == Kind::Full {
+        correction.held.restore(world, &mut work.joints.elimination);
     }
+    kind != Kind::Full || status == Status::Converged
 }

@@ -70,17 +70,42 @@ pub(super) fn next_prediction<S: Space<D, N>, const D: usize, const N: usize>(
     bodies: &Bodies<S, D, N>,
     i: usize,
     middle: &[Pose<S::Rotation, D>],
-    [free, after]: [&[[f64; N]]; 2],
+    velocities: [&[[f64; N]]; 2],
     h: f64,
     theta: f64,
 ) -> Pose<S::Rotation, D> {
+    let (end, velocity) = settled(bodies, i, middle, velocities, (h, theta));
+    moved::<S, D, N>(&end, &velocity, h * (1.0 - theta))
+}
+
+/// By how much that prediction turns for each component of the spin in `after`, over h; see [`Space::response`].
+pub(super) fn response<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    i: usize,
+    middle: &[Pose<S::Rotation, D>],
+    [free, after]: [&[[f64; N]]; 2],
+    (h, theta): (f64, f64),
+) -> [[f64; 3]; 3] {
+    let (end, velocity) = settled(bodies, i, middle, [free, after], (h, theta));
+    let rotations = [bodies.pose[i].rotation, middle[i].rotation, end.rotation];
+    let (velocities, impulse) = ([&bodies.velocity[i], &free[i], &after[i]], bodies.load[i].map(|x| h * x));
+    S::response(&bodies.mass[i], rotations, velocities, &velocity, &impulse, (h, theta))
+}
+
+/// The end of the step of body `i`: its pose, and its velocity after settling.
+fn settled<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    i: usize,
+    middle: &[Pose<S::Rotation, D>],
+    [free, after]: [&[[f64; N]]; 2],
+    (h, theta): (f64, f64),
+) -> (Pose<S::Rotation, D>, [f64; N]) {
     let (pose, before) = (&bodies.pose[i], &bodies.velocity[i]);
     let end = arrival::<S, D, N>(pose, [before, &after[i]], h, theta);
-    let mut velocity = after[i];
-    if bodies.is_free(i) {
-        let rotations = [pose.rotation, middle[i].rotation, end.rotation];
-        let impulse = bodies.load[i].map(|x| h * x);
-        velocity = S::settle(&bodies.mass[i], rotations, [before, &free[i], &after[i]], &impulse);
+    if !bodies.is_free(i) {
+        return (end, after[i]);
     }
-    moved::<S, D, N>(&end, &velocity, h * (1.0 - theta))
+    let rotations = [pose.rotation, middle[i].rotation, end.rotation];
+    let impulse = bodies.load[i].map(|x| h * x);
+    (end, S::settle(&bodies.mass[i], rotations, [before, &free[i], &after[i]], &impulse))
 }

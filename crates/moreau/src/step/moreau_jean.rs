@@ -1,6 +1,7 @@
 //! The step, on one screen: Moreau-Jean time stepping (section 3 of Barboteu & Dumont 2017; Jean 1999).
 
 use super::failed::{self, FAILED_KEPT, FailedSolve};
+use super::joints::{RESOLVED, StepJoints};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
@@ -69,6 +70,7 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
         before.restore(world, &mut work.ledger);
         let again = match error {
             StepError::Unconverged { .. } | StepError::SolveNotFinite { .. } => solves,
+            StepError::OpenJoint { .. } | StepError::StrainedBody { .. } => solves,
             StepError::NotFinite { .. } | StepError::Breach { .. } => limits,
         };
         if !again || parts == MOST_PARTS {
@@ -117,7 +119,7 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
         }
         match world.settings.on_failure {
             OnFailure::Warn | OnFailure::Dump if report.status != Status::NotFinite => {}
-            _ => return Err(unconverged(world.time + h, &report)),
+            _ => return Err(unconverged(world.time + h, &report, &work.joints)),
         }
     }
     // 10 v⁺ = v_free + M⁻¹ H p
@@ -187,9 +189,17 @@ fn note<S: Space<D, N>, const D: usize, const N: usize>(record: &mut StepRecord,
     work.history = report.history;
 }
 
-fn unconverged(time: f64, report: &Report) -> StepError {
+fn unconverged<const D: usize, const N: usize>(time: f64, report: &Report, joints: &StepJoints<D, N>) -> StepError {
     if report.status == Status::NotFinite {
         return StepError::SolveNotFinite { time, sweeps: report.sweeps };
+    }
+    if report.status == Status::Stalled {
+        if let Some((joint, error, bound)) = joints.open() {
+            return StepError::OpenJoint { time, joint, error, bound };
+        }
+        if let Some((body, swing)) = joints.strain {
+            return StepError::StrainedBody { time, body, swing, allowed: RESOLVED };
+        }
     }
     StepError::Unconverged {
         time,

@@ -1,6 +1,8 @@
 //! Joints against closed forms, conservation and statics.
 
 mod drift;
+mod driven;
+mod heavy;
 mod mechanisms;
 mod pendulums;
 mod scenes;

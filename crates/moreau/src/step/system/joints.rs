@@ -1,11 +1,12 @@
 //! Joints' blocks behind the contacts of the full system.
 
 use super::System;
+use super::operators::Assembled;
 use crate::bodies::Bodies;
-use crate::space::Space;
-use crate::step::joints::Block;
+use crate::space::{Pose, Space};
+use crate::step::joints::{Block, StepJoints};
 use moreau_solve::operator::NONE;
-use moreau_solve::{Cone, MatrixFree, Problem};
+use moreau_solve::{Cone, MatrixFree, Operator, Problem, Residual};
 
 impl<S: Space<D, N>, const D: usize, const N: usize> System<MatrixFree<D, N>, S, D, N, D> {
     /// Adds the blocks to the contacts that fill the system.
@@ -29,6 +30,32 @@ impl<S: Space<D, N>, const D: usize, const N: usize> System<MatrixFree<D, N>, S,
         for (q, block) in self.q[first..].iter_mut().zip(blocks) {
             *q = std::array::from_fn(|i| block.after[i] + block.shift[i]);
         }
+    }
+
+    /// Gives the blocks their current impulses, and adds what all impulses do to the velocities.
+    pub(in crate::step) fn carry(
+        &self,
+        bodies: &Bodies<S, D, N>,
+        middle: &[Pose<S::Rotation, D>],
+        joints: &mut StepJoints<D, N>,
+        velocity: &mut [[f64; N]],
+    ) {
+        self.operator.start(&self.r, &mut joints.state);
+        Assembled::<S, D, N, D>::give(&self.operator, &joints.state, bodies, middle, velocity);
+        let first = self.q.len() - joints.blocks.len();
+        joints.blocks.iter_mut().zip(&self.r[first..]).for_each(|(block, r)| block.impulse = *r);
+    }
+
+    /// Takes the impulses of the blocks.
+    pub(in crate::step) fn take_impulses(&mut self, blocks: &[Block<D, N>]) {
+        let first = self.q.len() - blocks.len();
+        self.r[first..].iter_mut().zip(blocks).for_each(|(r, block)| *r = block.impulse);
+    }
+
+    /// Measures the current impulses.
+    pub(in crate::step) fn certify(&mut self) -> Residual {
+        let problem = Problem { operator: &self.operator, q: &self.q, cones: &self.cones };
+        moreau_solve::certify(&problem, &self.r, &mut self.scratch)
     }
 
     /// Gives the blocks their impulses and their velocities, without the shifts.
