@@ -44,8 +44,8 @@ pub(super) fn solve<S: Space<D, N>, const D: usize, const N: usize>(
         if newton {
             work.systems.full.shift(&work.joints.blocks);
             let residual = work.systems.full.certify();
-            let error = residual.of(settings.criterion);
-            if error <= settings.tolerance {
+            if residual.certifies(settings.criterion, settings.tolerance) {
+                let error = residual.of(settings.criterion);
                 let stage = Stage { method: settings.global, sweeps: 0, error, status: Status::Converged };
                 report.stages.push(stage);
                 report = Report { status: Status::Converged, residual, ..report };
