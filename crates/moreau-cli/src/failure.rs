@@ -8,6 +8,7 @@
 //! | 3 | the scene or the problem in a file is wrong |
 //! | 4 | the computation failed: a solve of `moreau solve` or under the policy `stop` did not converge, a step broke a limit under that policy, or a number ceased to be finite |
 //! | 5 | solvers that should agree do not |
+//! | 6 | the run is not to be relied on, and `--strict` was given |
 //! | 130 | interrupted by Ctrl-C, SIGTERM or SIGHUP; what was computed is kept. By a second signal: ended at once; the last checkpoint is kept |
 
 use moreau::io::whole;
@@ -47,6 +48,16 @@ impl Failure {
     /// Disagreement.
     pub(crate) fn disagreement(message: impl Display) -> Self {
         Self { code: 5, message: message.to_string() }
+    }
+
+    /// A run that is not to be relied on.
+    pub(crate) fn unreliable(message: impl Display) -> Self {
+        Self { code: 6, message: message.to_string() }
+    }
+
+    /// True if the run was done and is not to be relied on.
+    pub(crate) fn is_unreliable(&self) -> bool {
+        self.code == 6
     }
 
     /// Ctrl-C.

@@ -20,7 +20,7 @@ use moreau::world::World;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-use words::{describe, kept, verdict};
+use words::{describe, ending, judge, kept};
 
 /// Arguments of `moreau run`.
 #[derive(clap::Args)]
@@ -50,6 +50,9 @@ pub(crate) struct Args {
     /// Show the run while it goes on, as a page on this machine that can pause, step and stop it; afterwards until Ctrl-C
     #[arg(long)]
     view: bool,
+    /// End with code 6 if the run is not to be relied on
+    #[arg(long, conflicts_with = "convergence")]
+    strict: bool,
     /// No progress bar and no summary
     #[arg(long)]
     quiet: bool,
@@ -142,7 +145,8 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
         let result = compute(args, scene, ready, folder, (stop, &pace));
         running.store(false, Ordering::Relaxed);
         // It can be looked at until it is enough.
-        while result.is_ok() && !stop.load(Ordering::Relaxed) {
+        let complete = result.as_ref().err().is_none_or(Failure::is_unreliable);
+        while complete && !stop.load(Ordering::Relaxed) {
             std::thread::sleep(Duration::from_millis(100));
         }
         done.store(true, Ordering::Relaxed);
@@ -199,5 +203,6 @@ fn compute<S: Space<D, N>, const D: usize, const N: usize>(
         }
         say(&describe(&outcome, bodies, &settings, folder))?;
     }
-    verdict(&outcome, scene, folder)
+    ending(&outcome, scene, folder)?;
+    judge(&outcome, args)
 }

@@ -80,7 +80,7 @@ fn same(place: &Place, one: &str, other: &str) {
     // As text, for absent bodies are nowhere, which equals nothing.
     let frame = |trajectory: &Trajectory, i| format!("{:?}", trajectory.frame(i).unwrap());
     (0..ours.frames()).for_each(|i| assert!(frame(&ours, i) == frame(&theirs, i), "frame {i}"));
-    let numbers = |trajectory: &Trajectory| trajectory.columns().unwrap()[..20].to_vec();
+    let numbers = |trajectory: &Trajectory| trajectory.columns().unwrap()[..30].to_vec();
     assert!(numbers(&ours) == numbers(&theirs), "records");
     // Sums over all steps, whoever did them.
     let sums = |folder: &str| {

@@ -31,12 +31,11 @@
 
 mod certificate;
 
-pub use certificate::{EpsGlob, MOST_ERRORS, MOST_SCALED, Residual, Worst};
+pub use certificate::{EpsGlob, MOST_ERRORS, MOST_SCALED, Residual, Worst, larger};
 
 use crate::block::{Matrix, Vector, axpy, dot, norm, sub, tangent_norm};
 use crate::tasks::fold;
 use crate::{Cone, Criterion, Operator, Problem};
-use certificate::larger;
 use std::ops::Range;
 
 /// The four terms of ε_glob at contact `c`.

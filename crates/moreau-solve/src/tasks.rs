@@ -33,20 +33,21 @@ pub fn sums<const K: usize>(range: Range<usize>, f: &(impl Fn(usize) -> [f64; K]
     fold(range, &|range: Range<usize>| range.fold([0.0; K], |sum, i| plus(sum, f(i))), &plus)
 }
 
-/// Σ f(i, a\[i\], b\[i\]), where f may change what it is given. The slices are of one length; `first` is the index of their first elements.
-pub fn sum_mut<A: Send, B: Send>(
+/// K sums Σ f(i, a\[i\], b\[i\]) at once, where f may change what it is given. The slices are of one length; `first` is the index of their first elements.
+pub fn sums_mut<A: Send, B: Send, const K: usize>(
     first: usize,
     a: &mut [A],
     b: &mut [B],
-    f: &(impl Fn(usize, &mut A, &mut B) -> f64 + Sync),
-) -> f64 {
+    f: &(impl Fn(usize, &mut A, &mut B) -> [f64; K] + Sync),
+) -> [f64; K] {
+    let plus = |a: [f64; K], b: [f64; K]| std::array::from_fn(|k| a[k] + b[k]);
     if a.len() <= TASK {
-        return a.iter_mut().zip(b).zip(first..).fold(0.0, |sum, ((a, b), i)| sum + f(i, a, b));
+        return a.iter_mut().zip(b).zip(first..).fold([0.0; K], |sum, ((a, b), i)| plus(sum, f(i, a, b)));
     }
     let middle = a.len() / 2;
     let ((a, a_end), (b, b_end)) = (a.split_at_mut(middle), b.split_at_mut(middle));
-    let (begin, end) = rayon::join(|| sum_mut(first, a, b, f), || sum_mut(first + middle, a_end, b_end, f));
-    begin + end
+    let (begin, end) = rayon::join(|| sums_mut(first, a, b, f), || sums_mut(first + middle, a_end, b_end, f));
+    plus(begin, end)
 }
 
 /// f of every element.
@@ -79,13 +80,13 @@ mod tests {
             assert!(all.iter().all(|sums| sums.map(f64::to_bits) == all[0].map(f64::to_bits)));
             assert_eq!(all[0][1], (n * n.saturating_sub(1) / 2) as f64);
             let (mut a, mut b) = (vec![0.0; n], vec![1.0; n]);
-            let sum = on(3, || {
-                sum_mut(0, &mut a, &mut b, &|i, a, b| {
+            let sums = on(3, || {
+                sums_mut(0, &mut a, &mut b, &|i, a, b| {
                     (*a, *b) = (*b, i as f64);
-                    term(i)
+                    [term(i), i as f64]
                 })
             });
-            assert_eq!(sum.to_bits(), all[0][0].to_bits());
+            assert_eq!(sums.map(f64::to_bits), all[0].map(f64::to_bits));
             assert!(a.iter().all(|&a| a == 1.0) && b.iter().enumerate().all(|(i, &b)| b == i as f64));
         }
     }

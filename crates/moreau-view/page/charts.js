@@ -32,6 +32,11 @@ function stepCharts(line, tolerance) {
             series: [line("kinetic", "kinetic", 0), line("potential", "potential", 2), line("work", "work", 3), line("dissipated", "dissipated", 1),
                 line("by impacts", "impact", 4), line("by friction", "friction", 5)],
         },
+        {
+            title: "Energy created", unit: "J per step",
+            series: [line("by contacts", "created_contacts", 0), line("by joints", "created_joints", 1),
+                line("by corrections", "created_correction", 2), line("by the scheme", "created_scheme", 3)],
+        },
         { title: "Balance error", unit: "J", series: [line("", "balance_error", 5)] },
         { title: "Contacts", series: [line("all", "contacts", 0), line("with impulse", "active", 1)] },
         {

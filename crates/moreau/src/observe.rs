@@ -3,6 +3,7 @@
 //! A [`Frame`] is a borrowed view of the world after a step. Adding an output is a file, and a row in [`OUTPUTS`].
 
 mod background;
+mod books;
 mod failed;
 pub mod interfaces;
 mod measures;
@@ -11,6 +12,7 @@ mod steps;
 mod summary;
 mod table;
 mod trajectory;
+pub mod verdict;
 mod vtk;
 
 pub use failed::FailedProblems;
@@ -19,6 +21,7 @@ pub(crate) use steps::numbers;
 pub use steps::{COLUMNS, StepsCsv};
 pub use summary::Summary;
 pub use trajectory::TrajectoryOutput;
+pub use verdict::Verdict;
 pub use vtk::VtkOutput;
 
 use crate::checkpoint::Mark;
@@ -30,7 +33,10 @@ use std::path::PathBuf;
 
 /// The table of outputs.
 pub const OUTPUTS: &[Row] = &[
-    Row { name: "steps", about: "steps.csv: a row a step with sweeps, residuals, penetration, energies, seconds" },
+    Row {
+        name: "steps",
+        about: "steps.csv: a row a step with sweeps, residuals, penetration, joints, energies, energy created, seconds",
+    },
     Row {
         name: "trajectory",
         about: "trajectory.h5: bodies and contacts of each frame and the records of steps, for moreau's own views and for Python",

@@ -100,6 +100,7 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
                 progress(&record);
             }
             Err(error) => {
+                summary.fail(error.to_string());
                 end = End::Failed(error);
                 break;
             }

@@ -3,6 +3,7 @@
 mod assemble;
 mod closing;
 mod correct;
+mod created;
 mod failed;
 mod forces;
 mod guard;
@@ -16,6 +17,7 @@ mod system;
 mod turning;
 mod workspace;
 
+pub use created::Created;
 pub use failed::{FAILED_KEPT, FailedSolve};
 pub use guard::Breach;
 pub use joints::Reaction;
@@ -92,6 +94,16 @@ pub enum StepError {
         /// Time, s.
         time: f64,
     },
+    /// A number that the step reports is NaN or infinite.
+    #[error("{} is not a finite number in the step to t = {time} s; take a smaller time.step, or smaller numbers", named(what, *body))]
+    Overflow {
+        /// The number.
+        what: &'static str,
+        /// Index of the first body whose number it is, where it is that of a body.
+        body: Option<usize>,
+        /// Time at the end of the step, s.
+        time: f64,
+    },
     /// A step broke a limit of [`Guard`](crate::world::Guard), and the policy is to stop or halving did not help.
     #[error("in the step to t = {time} s {breach}")]
     Breach {
@@ -109,8 +121,14 @@ impl StepError {
             Self::StrainedBody { body, .. }
             | Self::NotFinite { body, .. }
             | Self::Breach { breach: Breach::Domain { body, .. }, .. } => vec![*body],
+            Self::Overflow { body, .. } => body.iter().copied().collect(),
             Self::Breach { breach: Breach::Penetration { bodies, .. }, .. } => bodies.to_vec(),
             _ => Vec::new(),
         }
     }
+}
+
+/// Returns the words for a number of the whole step, or of one body.
+fn named(what: &str, body: Option<usize>) -> String {
+    body.map_or_else(|| format!("the {what}"), |body| format!("the {what} of body {body}"))
 }

@@ -37,7 +37,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The version of the layout and of the columns of records.
-const VERSION: i64 = 2;
+const VERSION: i64 = 3;
 
 /// What the attribute `format` says.
 const FORMAT: &str = "moreau trajectory";

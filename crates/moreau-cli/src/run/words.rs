@@ -18,7 +18,7 @@ pub(super) fn describe(outcome: &Outcome, bodies: usize, settings: &StepSettings
     format!(
         "{} steps, {bodies} bodies, {} inside {}: {:.1} sweeps a step, {unconverged}\n\
          {:.2} s in all, {:.2} s for contact impulses, {:.2} s for files\n\
-         {}results in {}\n",
+         {}results in {}\n{}",
         summary.steps(),
         settings.solver.local.name(),
         settings.solver.global.name(),
@@ -28,7 +28,38 @@ pub(super) fn describe(outcome: &Outcome, bodies: usize, settings: &StepSettings
         summary.seconds_output(),
         failed_problems(outcome, folder),
         folder.display(),
+        verdict(outcome),
     )
+}
+
+/// The lines that judge the run: the energy created, if there is some, and the verdict with its reasons.
+fn verdict(outcome: &Outcome) -> String {
+    let (verdict, created) = (outcome.summary.verdict(), outcome.summary.energy_created());
+    if verdict.reliable() {
+        let energy = created.map(|text| format!("energy: {text}\n")).unwrap_or_default();
+        return format!("{energy}verdict: all checks passed\n");
+    }
+    // Energy that is no reason against the run is reported all the same.
+    let reasons = verdict.reasons();
+    let energy = created.filter(|text| !reasons.contains(text)).map(|text| format!("energy: {text}\n")).unwrap_or_default();
+    let reasons: String = reasons.iter().map(|reason| format!("  - {reason}\n")).collect();
+    format!("{energy}verdict: NOT TO BE RELIED ON\n{reasons}")
+}
+
+/// Fails under `--strict` if the run is not to be relied on; under `--quiet` says so where nothing else does.
+pub(super) fn judge(outcome: &Outcome, args: &super::Args) -> Result<(), Failure> {
+    let verdict = outcome.summary.verdict();
+    if verdict.reliable() {
+        return Ok(());
+    }
+    let failure = Failure::unreliable(format!("the run is not to be relied on: {}", verdict.reasons().join("; ")));
+    if args.strict {
+        return Err(failure);
+    }
+    if args.quiet {
+        failure.note("kept the results");
+    }
+    Ok(())
 }
 
 /// Where the problems of failed solves are, under the policy `dump`.
@@ -58,7 +89,8 @@ pub(super) fn kept(outcome: &Outcome, folder: &Path) -> String {
     }
 }
 
-pub(super) fn verdict(outcome: &Outcome, scene: &Scene, folder: &Path) -> Result<(), Failure> {
+/// Fails if the run did not come to its end.
+pub(super) fn ending(outcome: &Outcome, scene: &Scene, folder: &Path) -> Result<(), Failure> {
     if let (count @ 1.., Some(first)) = outcome.summary.breaches() {
         Failure::computation(first).note(&format!("{count} steps broke a limit of [guard]; the first"));
     }

@@ -127,7 +127,7 @@ impl Residual {
     }
 }
 
-/// Returns the larger, or NaN if one is NaN: `f64::max` would hide it.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
+/// Returns the larger number, or NaN if one of them is NaN; `f64::max` would hide it.
+pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

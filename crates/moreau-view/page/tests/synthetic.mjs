@@ -165,7 +165,8 @@ export class Synthetic {
             solver: { local: "pdas", global: "nlgs", criterion: "eps_glob", tolerance: 1e-7 },
             verdict: {
                 steps: 1000, planned_steps: 1000, unconverged_steps: 0, scaled_residual_max: 8e-8, eps_glob_max: 9.3e-8, penetration_max: 1.4e-6,
-                balance_error_max: 1.3e-6, energy_scale: 1, seconds: { detect: 0.2, localise: 0.05, solve: 1, output: 0.1, total: 1.4 }, threads: 1, version: "0.4.0",
+                balance_error_max: 1.3e-6, reliable: true, reasons: [],
+                checks: [{ name: "Convergence", passed: true, text: "the solver met its criterion in all 1000 steps" }], seconds: { detect: 0.2, localise: 0.05, solve: 1, output: 0.1, total: 1.4 }, threads: 1, version: "0.4.0",
             },
             materials: ["glass", "steel", "ground"], bodies, shapes, frames, blocks, thinned: 10, steps: this.steps(),
         };

@@ -1,35 +1,38 @@
 //! The records of steps, and what they come to.
 
 use super::Recording;
-use moreau::observe::COLUMNS;
+use moreau::observe::{COLUMNS, Summary};
+use moreau::solve::residual::larger;
 use serde_json::{Map, Value, json};
 
 /// So many steps a chart can show; of more, the hardest of each few is taken.
 const ROWS: usize = 4000;
 
-/// Whether the run can be believed.
+/// Returns the numbers of a run's head, and the verdict on it: that of `summary.json`, or for a run that goes on or was killed the same
+/// judgement of the steps so far.
 pub(super) fn verdict(run: &Recording) -> Value {
     let column = |name: &str| run.column(name);
-    let largest = |name: &str| column(name).iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let range = |name: &str| {
-        let (low, high) =
-            column(name).iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
-        if low <= high { high - low } else { 0.0 }
-    };
-    let scale = ["kinetic", "dissipated", "work"].map(largest).into_iter().fold(range("potential"), f64::max);
+    let largest = |name: &str| column(name).iter().fold(0.0, |most, x| larger(most, x.abs()));
     let sum = |name: &str| column(name).iter().sum::<f64>();
     // Written at the end of a run; before it, and of one that was killed, there is none.
     let summary = std::fs::read_to_string(run.folder.join("summary.json")).ok();
     let summary: Value = summary.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
+    let steps = column("step").len();
+    let judged = summary["steps"].as_u64() == Some(steps as u64) && summary["verdict"].is_object();
+    let row = |i: usize| std::array::from_fn(|k| run.columns[k][i]);
+    let now = || Summary::of_rows((0..steps).map(row)).verdict().to_json();
+    let judgement = if judged { summary["verdict"].clone() } else { now() };
     json!({
-        "steps": column("step").len(),
+        "steps": steps,
+        "reliable": judgement["reliable"],
+        "reasons": judgement["reasons"],
+        "checks": judgement["checks"],
         "planned_steps": run.scene.time.steps,
         "unconverged_steps": column("converged").iter().filter(|&&converged| converged == 0.0).count(),
         "scaled_residual_max": largest("scaled_residual"),
         "eps_glob_max": largest("eps_glob"),
         "penetration_max": largest("penetration"),
         "balance_error_max": largest("balance_error"),
-        "energy_scale": scale,
         "seconds": {
             "detect": sum("seconds_detect"),
             "localise": sum("seconds_localise"),

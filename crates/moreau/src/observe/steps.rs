@@ -4,12 +4,13 @@ use super::table::Table;
 use super::{Frame, Observer, OutputError};
 use crate::checkpoint::Mark;
 use crate::space::Space;
-use crate::step::StepRecord;
+use crate::step::{Created, Energy, Seconds, StepRecord};
+use moreau_solve::{EpsGlob, Residual, Status};
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 24] = [
+pub const COLUMNS: [&str; 34] = [
     "step",
     "time",
     "bodies",
@@ -17,12 +18,16 @@ pub const COLUMNS: [&str; 24] = [
     "active",
     "sweeps",
     "converged",
+    "breach",
     "eps_motion",
     "eps_bipotential",
     "eps_penetration",
     "eps_glob",
     "scaled_residual",
     "penetration",
+    "overlap",
+    "joint_error",
+    "joint_gap",
     "kinetic",
     "potential",
     "work",
@@ -30,6 +35,12 @@ pub const COLUMNS: [&str; 24] = [
     "impact",
     "friction",
     "balance_error",
+    "created",
+    "created_contacts",
+    "created_joints",
+    "created_correction",
+    "created_scheme",
+    "lift",
     "seconds_detect",
     "seconds_localise",
     "seconds_solve",
@@ -37,9 +48,9 @@ pub const COLUMNS: [&str; 24] = [
 ];
 
 /// How many of the first columns are whole numbers, but for the time.
-const WHOLE: usize = 7;
+const WHOLE: usize = 8;
 /// Where the seconds begin, of which few digits mean something.
-const SECONDS: usize = 20;
+const SECONDS: usize = COLUMNS.len() - 4;
 
 /// The numbers of a row; whole numbers are below 2^53.
 pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
@@ -52,12 +63,16 @@ pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
         r.active as f64,
         r.sweeps as f64,
         f64::from(u8::from(r.converged())),
+        f64::from(u8::from(r.breach.is_some())),
         eps.motion,
         eps.bipotential,
         eps.penetration,
         eps.total(),
         r.residual.scaled,
         r.penetration,
+        r.overlap,
+        r.joint_error,
+        r.joint_gap,
         energy.kinetic,
         energy.potential,
         energy.work,
@@ -65,11 +80,49 @@ pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
         energy.impact,
         energy.friction,
         energy.balance_error,
+        r.created.total(),
+        r.created.contacts,
+        r.created.joints,
+        r.created.correction,
+        r.created.scheme,
+        r.lift,
         seconds.detect,
         seconds.localise,
         seconds.solve,
         seconds.step,
     ]
+}
+
+/// Returns the record with this row, and whether it broke a limit. The row does not say which limit, or why a solve ended.
+pub(crate) fn record_of(row: &[f64; COLUMNS.len()]) -> (StepRecord, bool) {
+    let [step, time, bodies, contacts, active, sweeps, converged, breach, rest @ ..] = *row;
+    let [motion, bipotential, eps_penetration, _, scaled, penetration, overlap, joint_error, joint_gap, rest @ ..] = rest;
+    let [kinetic, potential, work, dissipated, impact, friction, balance_error, _, rest @ ..] = rest;
+    let [by_contacts, by_joints, by_correction, by_scheme, lift, detect, localise, solve, whole] = rest;
+    let record = StepRecord {
+        step: step as u64,
+        time,
+        bodies: bodies as usize,
+        contacts: contacts as usize,
+        active: active as usize,
+        sweeps: sweeps as u64,
+        status: if converged == 1.0 { Status::Converged } else { Status::MaxSweeps },
+        residual: Residual {
+            eps_glob: EpsGlob { motion, bipotential, penetration: eps_penetration },
+            scaled,
+            ..Residual::default()
+        },
+        penetration,
+        overlap,
+        joint_error,
+        joint_gap,
+        created: Created::of([by_contacts, by_joints, by_correction, by_scheme]),
+        lift,
+        energy: Energy { kinetic, potential, work, dissipated, impact, friction, balance_error },
+        seconds: Seconds { detect, localise, solve, step: whole },
+        ..StepRecord::default()
+    };
+    (record, breach == 1.0)
 }
 
 /// Writes the records of a run.

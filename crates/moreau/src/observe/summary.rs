@@ -1,24 +1,33 @@
 //! What a whole run comes to: the numbers of `summary.json`.
 
+use super::books::Books;
+use super::steps::record_of;
+use super::{COLUMNS, Verdict, verdict};
 use crate::step::{Energy, StepRecord};
 use crate::world::StepSettings;
+use moreau_solve::residual::larger;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 /// Sums and extremes over the steps of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    steps: u64,
+    pub(super) steps: u64,
     contacts: u64,
     sweeps: u64,
     sweeps_max: u64,
-    unconverged: u64,
-    eps_glob_max: f64,
-    scaled_max: f64,
-    penetration_max: f64,
-    balance_error_max: f64,
-    breaches: u64,
-    first_breach: Option<String>,
+    pub(super) unconverged: u64,
+    pub(super) eps_glob_max: f64,
+    pub(super) scaled_max: f64,
+    pub(super) penetration_max: f64,
+    pub(super) overlap_max: f64,
+    pub(super) joint_error_max: f64,
+    pub(super) joint_gap_max: f64,
+    pub(super) books: Books,
+    pub(super) breaches: u64,
+    pub(super) first_breach: Option<String>,
+    /// Why the run ended before its last step, if a step failed.
+    pub(super) failure: Option<String>,
     failed_problems: Vec<String>,
     refused_problem: Option<String>,
     detect: f64,
@@ -39,10 +48,13 @@ impl Summary {
         self.sweeps += record.sweeps;
         self.sweeps_max = self.sweeps_max.max(record.sweeps);
         self.unconverged += u64::from(!record.converged());
-        self.eps_glob_max = self.eps_glob_max.max(record.residual.eps_glob.total());
-        self.scaled_max = self.scaled_max.max(record.residual.scaled);
-        self.penetration_max = self.penetration_max.max(record.penetration);
-        self.balance_error_max = self.balance_error_max.max(record.energy.balance_error.abs());
+        self.eps_glob_max = larger(self.eps_glob_max, record.residual.eps_glob.total());
+        self.scaled_max = larger(self.scaled_max, record.residual.scaled);
+        self.penetration_max = larger(self.penetration_max, record.penetration);
+        self.overlap_max = larger(self.overlap_max, record.overlap);
+        self.joint_error_max = larger(self.joint_error_max, record.joint_error);
+        self.joint_gap_max = larger(self.joint_gap_max, record.joint_gap);
+        self.books.add(record);
         self.detect += record.seconds.detect;
         self.localise += record.seconds.localise;
         self.solve += record.seconds.solve;
@@ -51,6 +63,33 @@ impl Summary {
             self.first_breach.get_or_insert_with(|| format!("step {}, t = {} s: {breach}", record.step, record.time));
         }
         (self.time, self.contacts_last, self.energy) = (record.time, record.contacts, record.energy);
+    }
+
+    /// Returns the summary of steps whose rows of `steps.csv` these are. It knows of no file and of no failure.
+    pub fn of_rows(rows: impl IntoIterator<Item = [f64; COLUMNS.len()]>) -> Self {
+        let mut summary = Self::default();
+        for row in rows {
+            let (record, broke) = record_of(&row);
+            summary.add(&record);
+            summary.breaches += u64::from(broke);
+        }
+        summary
+    }
+
+    /// Notes the error of the step that ended the run.
+    pub(crate) fn fail(&mut self, reason: String) {
+        self.failure = Some(reason);
+    }
+
+    /// Judges whether the run is to be relied on.
+    pub fn verdict(&self) -> Verdict {
+        Verdict::of(self)
+    }
+
+    /// Returns how much energy was created and by what, if it is more than rounding creates.
+    pub fn energy_created(&self) -> Option<String> {
+        let text = || self.verdict().check("Energy").map(|check| check.text.clone());
+        verdict::beyond_rounding(self).then(text).flatten()
     }
 
     /// Adds the name of a file with the problem of a failed solve.
@@ -132,6 +171,10 @@ impl Summary {
             "eps_glob_max": self.eps_glob_max,
             "scaled_residual_max": self.scaled_max,
             "penetration_max": self.penetration_max,
+            "overlap_max": self.overlap_max,
+            "joint_error_max": self.joint_error_max,
+            "joint_gap_max": self.joint_gap_max,
+            "verdict": self.verdict().to_json(),
             "energy": {
                 "kinetic": energy.kinetic,
                 "potential": energy.potential,
@@ -140,7 +183,8 @@ impl Summary {
                 "impact": energy.impact,
                 "friction": energy.friction,
                 "balance_error": energy.balance_error,
-                "balance_error_max": self.balance_error_max,
+                "balance_error_max": self.books.balance_error,
+                "created": self.books.to_json(),
             },
             "seconds": {
                 "total": self.total,

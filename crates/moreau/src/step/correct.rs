@@ -7,7 +7,7 @@
 //!   min ½ δ·M δ   with   gap + H_n* δ ≥ −½ ε R   at every contact,
 //!
 //! which is the problem of a step without friction with gaps for velocities; theory (67). Velocities stay as they are, so no kinetic energy
-//! is made; what weights gain in height is booked as work.
+//! is made; the height that weights gain is booked as energy created.
 
 mod doubt;
 mod held;
@@ -90,7 +90,7 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
         }
     }
     let (_, after) = energies(&world.bodies, &world.gravity);
-    work.ledger.bring(after - before);
+    work.ledger.dissipate(before - after);
     seconds
 }
 

@@ -5,7 +5,7 @@ use crate::bodies::Bodies;
 use crate::contacts::Contact;
 use crate::shape::Shape;
 use crate::space::Space;
-use crate::world::World;
+use crate::world::{Guard, World};
 use moreau_solve::tasks;
 
 /// How a step broke a limit of [`Guard`](crate::world::Guard).
@@ -39,7 +39,7 @@ pub enum Breach {
     },
 }
 
-/// The first limit that is broken after a (part of a) step that created so much energy (J).
+/// Returns the first limit that is broken after a (part of a) step that created so much energy (J).
 pub(super) fn check<S: Space<D, N>, const D: usize, const N: usize>(
     world: &World<S, D, N>,
     work: &Workspace<S, D, N>,
@@ -48,11 +48,22 @@ pub(super) fn check<S: Space<D, N>, const D: usize, const N: usize>(
     let (guard, bodies) = (&world.guard, &world.bodies);
     let deepest = || guard.penetration.and_then(|part| penetration(bodies, &work.found, part));
     let outside = || guard.domain.and_then(|domain| outside(bodies, &domain));
-    let energy = || {
-        let allowed = guard.energy.filter(|&allowed| created > allowed)?;
-        Some(Breach::Energy { created, allowed })
-    };
-    deepest().or_else(outside).or_else(energy)
+    deepest().or_else(outside).or_else(|| energy(guard, created))
+}
+
+/// Returns the limit of energy if a step that created so much (J) broke it.
+pub(super) fn energy<const D: usize>(guard: &Guard<D>, created: f64) -> Option<Breach> {
+    let allowed = guard.energy.filter(|&allowed| created > allowed)?;
+    Some(Breach::Energy { created, allowed })
+}
+
+/// Returns the bounding radius of the smaller body of a contact, m.
+pub(super) fn smaller_radius<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    contact: &Contact<D>,
+) -> f64 {
+    let radius = |i: u32| bodies.shape[i as usize].bounding_radius().unwrap_or(f64::INFINITY);
+    radius(contact.key.a).min(radius(contact.key.b))
 }
 
 /// The overlap that exceeds what is allowed by most.
@@ -61,8 +72,7 @@ fn penetration<S: Space<D, N>, const D: usize, const N: usize>(
     found: &[Contact<D>],
     part: f64,
 ) -> Option<Breach> {
-    let radius = |i: u32| bodies.shape[i as usize].bounding_radius().unwrap_or(f64::INFINITY);
-    let allowed = |c: &Contact<D>| part * radius(c.key.a).min(radius(c.key.b));
+    let allowed = |c: &Contact<D>| part * smaller_radius(bodies, c);
     let excess = |c: usize| -found[c].gap / allowed(&found[c]);
     let worse = |a: Option<usize>, b: Option<usize>| if b.map_or(0.0, excess) > a.map_or(0.0, excess) { b } else { a };
     let worst = tasks::fold(0..found.len(), &|part: std::ops::Range<usize>| part.map(Some).fold(None, worse), &worse)?;

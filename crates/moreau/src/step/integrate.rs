@@ -1,5 +1,6 @@
 //! Stages 3 and 11: positions from velocities (eqs. 13 and 18).
 
+use super::record::Balance;
 use crate::bodies::{Bodies, Motion};
 use crate::space::{Pose, Space};
 use moreau_solve::tasks;
@@ -27,17 +28,18 @@ pub(super) fn predict<S: Space<D, N>, const D: usize, const N: usize>(
 ///
 /// Rotations are turned at once by the θ-averaged spin: for θ = 1/2 that keeps the angular momentum of a free body exactly, which
 /// two turns one after the other would not. With contacts the spin is settled by the balance of momentum; see [`Space::settle`].
-/// Returns the kinetic energy that settling took, of either sign: rounding for balls without torque; for other bodies of second order
-/// in h in lasting contact, of first order at an impact; and for θ > 1/2 what the scheme damps of a free rotation.
+/// Returns the kinetic energy that settling took, of either sign, J: rounding for balls without torque; for other bodies of second order
+/// in h in lasting contact, of first order at an impact; and for θ > 1/2 what the scheme damps of a free rotation. The second number is
+/// the energy that the scheme created: the sum over the bodies for which settling and what is in `losses` together are negative.
 pub(super) fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     bodies: &mut Bodies<S, D, N>,
     middle: &[Pose<S::Rotation, D>],
     [free, after]: [&[[f64; N]]; 2],
-    h: f64,
-    theta: f64,
-) -> f64 {
+    losses: &[Balance],
+    (h, theta): (f64, f64),
+) -> [f64; 2] {
     let Bodies { pose, velocity, mass, load, motion, .. } = bodies;
-    tasks::sum_mut(0, pose, velocity, &|i, pose, velocity| {
+    tasks::sums_mut(0, pose, velocity, &|i, pose, velocity| {
         let before = *velocity;
         let end = arrival::<S, D, N>(pose, [&before, &after[i]], h, theta);
         *velocity = after[i];
@@ -50,7 +52,8 @@ pub(super) fn advance<S: Space<D, N>, const D: usize, const N: usize>(
             *velocity = settled;
         }
         *pose = end;
-        taken
+        let lost = losses[i].scheme + taken;
+        [taken, if lost >= 0.0 { 0.0 } else { -lost }]
     })
 }
 

@@ -5,9 +5,11 @@ use super::integrate;
 use crate::bodies::Bodies;
 use crate::contacts::Contact;
 use crate::joints::{Joint, Part, Placed, parted, pose_of};
+use crate::shape::Shape;
 use crate::space::{Pose, Space};
 use crate::world::World;
 use moreau_solve::block::{dot, norm};
+use moreau_solve::residual::larger;
 
 /// What is left open of a joint, relative to the sizes at hand, that no further round is needed for.
 const CLOSED: f64 = 1e-11;
@@ -246,6 +248,13 @@ impl<const D: usize, const N: usize> StepJoints<D, N> {
             };
             block.shift = std::array::from_fn(|i| -along(i));
         }
+    }
+
+    /// Returns the greatest error that was measured, as a part of the bounding radius of the smaller body of its joint.
+    pub(super) fn gap<S: Space<D, N>>(&self, joints: &[Joint<D>], bodies: &Bodies<S, D, N>) -> f64 {
+        let radius = |body: &usize| bodies.shape[*body].bounding_radius();
+        let size = |joint: &Joint<D>| joint.bodies.iter().flatten().filter_map(radius).fold(f64::INFINITY, f64::min);
+        self.blocks.iter().map(|block| norm(&block.miss) / size(&joints[block.joint])).fold(0.0, larger)
     }
 
     /// Adds what was measured to the shifts.

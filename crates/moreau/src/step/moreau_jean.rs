@@ -1,14 +1,17 @@
 //! The step, on one screen: Moreau-Jean time stepping (section 3 of Barboteu & Dumont 2017; Jean 1999).
 
+use super::created::Created;
 use super::failed::{self, FAILED_KEPT, FailedSolve};
 use super::joints::{RESOLVED, StepJoints};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
 use super::{StepError, Workspace, assemble, closing, correct, forces, guard, integrate};
-use crate::space::Space;
+use crate::contacts::Contact;
+use crate::space::{Pose, Space};
 use crate::world::{OnBreach, OnFailure, World};
 use moreau_solve::files::ProblemFile;
+use moreau_solve::residual::larger;
 use moreau_solve::{Report, Status, tasks};
 use std::ops::Range;
 use std::time::Instant;
@@ -21,7 +24,8 @@ const MOST_PARTS: u32 = 64;
 /// # Errors
 /// [`StepError::Unconverged`] where the policy says to stop; the world is then as before the step, but for what
 /// events and drives did at its beginning; so it is after any error where steps may be halved.
-/// [`StepError::NotFinite`] where a velocity or position ceases to be a number, [`StepError::Breach`] where the step breaks a limit.
+/// [`StepError::NotFinite`] where a velocity or position ceases to be a number, [`StepError::Overflow`] where a number of the record does,
+/// [`StepError::Breach`] where the step breaks a limit.
 pub fn step<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
@@ -41,14 +45,54 @@ pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.present(), ..StepRecord::default() };
     let end = world.time + world.settings.h;
     advance(world, work, &mut record, world.settings.h)?;
-    record.seconds.detect += correct::positions(world, work);
+    correct(world, work, &mut record)?;
     world.steps += 1;
     // Halves add up to h only to rounding; the clock counts whole steps.
     world.time = end;
     record.time = end;
-    record.energy = work.ledger.energy(energies(&world.bodies, &world.gravity));
     record.seconds.step = started.elapsed().as_secs_f64();
     Ok(record)
+}
+
+/// Corrects positions at the end of a step, if that is asked for, and books what it created.
+fn correct<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    record: &mut StepRecord,
+) -> Result<(), StepError> {
+    if world.settings.max_penetration.is_none() {
+        return Ok(());
+    }
+    let dissipated = work.ledger.dissipated();
+    record.seconds.detect += correct::positions(world, work);
+    record.created.correction = larger(0.0, dissipated - work.ledger.dissipated());
+    check_finite(world)?;
+    close(world, work, record)?;
+    match guard::energy(&world.guard, record.created.total()) {
+        Some(breach) if world.guard.policy != OnBreach::Warn => Err(StepError::Breach { time: world.time, breach }),
+        Some(breach) => {
+            record.breach.get_or_insert(breach);
+            Ok(())
+        }
+        None => Ok(()),
+    }
+}
+
+/// Closes the books of a (part of a) step: energies at its end. Fails where a number of the record is not finite.
+fn close<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &World<S, D, N>,
+    work: &Workspace<S, D, N>,
+    record: &mut StepRecord,
+) -> Result<(), StepError> {
+    record.energy = work.ledger.energy(energies(&world.bodies, &world.gravity));
+    let Some(what) = record.not_finite() else { return Ok(()) };
+    let part = match what {
+        "kinetic energy" => 0,
+        "potential energy" => 1,
+        _ => return Err(StepError::Overflow { what, body: None, time: world.time }),
+    };
+    let body = (0..world.bodies.len()).find(|&i| !world.bodies.energy(i, &world.gravity)[part].is_finite());
+    Err(StepError::Overflow { what, body, time: world.time })
 }
 
 /// One step of length `h`, or two of half its length, or four of a quarter, where it fails and the policy asks for it.
@@ -71,7 +115,7 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
         let again = match error {
             StepError::Unconverged { .. } | StepError::SolveNotFinite { .. } => solves,
             StepError::OpenJoint { .. } | StepError::StrainedBody { .. } => solves,
-            StepError::NotFinite { .. } | StepError::Breach { .. } => limits,
+            StepError::NotFinite { .. } | StepError::Overflow { .. } | StepError::Breach { .. } => limits,
         };
         if !again || parts == MOST_PARTS {
             return Err(error);
@@ -131,18 +175,20 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     work.after.clone_from(&work.free);
     work.systems.get(kind).deposit(&world.bodies, &work.middle, &mut work.after);
     record.h = h;
-    let dissipated = work.ledger.dissipated();
-    work.ledger.book(&world.bodies, &world.gravity, [&work.free, &work.after], &work.contacts, (h, theta));
+    let velocities = [work.free.as_slice(), work.after.as_slice()];
+    let lift = work.ledger.book(&world.bodies, &world.gravity, velocities, &work.contacts, (h, theta), &mut work.balance);
     work.ledger.book_joints(&work.joints.blocks);
+    let mut created = work.islands.created(&world.bodies, &work.contacts, &work.joints.blocks);
     work.last.clone_from(&world.bodies.velocity);
     // 11 q⁺ = q_m + h θ v⁺
-    let taken = integrate::advance(&mut world.bodies, &work.middle, [&work.free, &work.after], h, theta);
+    let [taken, scheme] = integrate::advance(&mut world.bodies, &work.middle, velocities, &work.balance, (h, theta));
     work.ledger.dissipate(taken);
+    created.scheme = scheme;
     assemble::remember(work);
     world.time += h;
     world.schedule.place(&mut world.bodies, world.time);
     check_finite(world)?;
-    let breach = guard::check(world, work, dissipated - work.ledger.dissipated());
+    let breach = guard::check(world, work, created.total());
     if let Some(breach) = breach {
         if world.guard.policy != OnBreach::Warn {
             if world.guard.dumps() {
@@ -152,8 +198,8 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
         }
         record.breach.get_or_insert(breach);
     }
-    note(record, work, report);
-    Ok(())
+    note(world, record, work, (report, created, lift));
+    close(world, work, record)
 }
 
 /// Keeps the problem of a (part of a) step to `time`.
@@ -170,20 +216,33 @@ fn keep_failed<S: Space<D, N>, const D: usize, const N: usize>(
     work.failed.count += 1;
 }
 
-/// Adds a solve to the record of its step; of several, the worst residual counts.
-fn note<S: Space<D, N>, const D: usize, const N: usize>(record: &mut StepRecord, work: &mut Workspace<S, D, N>, report: Report) {
+/// Adds a solve to the record of its step, with the energy that it created; the worst residual of several solves counts.
+fn note<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &World<S, D, N>,
+    record: &mut StepRecord,
+    work: &mut Workspace<S, D, N>,
+    (report, created, lift): (Report, Created, f64),
+) {
     record.contacts = work.contacts.len();
     let (contacts, found) = (&work.contacts, &work.found);
     let active = |part: Range<usize>| contacts[part].iter().filter(|c| c.impulse != [0.0; D]).count();
     record.active = tasks::fold(0..contacts.len(), &active, &|a, b| a + b);
-    let deepest = |part: Range<usize>| found[part].iter().map(|c| -c.gap).fold(0.0, f64::max);
-    record.penetration = record.penetration.max(tasks::fold(0..found.len(), &deepest, &f64::max));
-    record.joint_error = record.joint_error.max(work.joints.left);
+    let larger_of = |a: [f64; 2], b: [f64; 2]| [larger(a[0], b[0]), larger(a[1], b[1])];
+    let deep = |c: &Contact<D>| if c.gap >= 0.0 { [0.0; 2] } else { [-c.gap, -c.gap / guard::smaller_radius(&world.bodies, c)] };
+    let deepest = |part: Range<usize>| found[part].iter().map(deep).fold([0.0; 2], larger_of);
+    let [penetration, overlap] = tasks::fold(0..found.len(), &deepest, &larger_of);
+    record.penetration = larger(record.penetration, penetration);
+    record.overlap = larger(record.overlap, overlap);
+    record.joint_error = larger(record.joint_error, work.joints.left);
+    record.joint_gap = larger(record.joint_gap, work.joints.gap(&world.joints, &world.bodies));
+    record.created.add(&created);
+    record.lift = larger(record.lift, lift);
     if report.status != Status::Converged {
         record.status = report.status;
     }
-    let worse = report.residual.eps_glob.total() >= record.residual.eps_glob.total();
-    if worse {
+    // Not `>=`: a NaN is the worst, and stays.
+    let better = report.residual.eps_glob.total() < record.residual.eps_glob.total();
+    if !better && !record.residual.eps_glob.total().is_nan() {
         record.residual = report.residual;
     }
     work.history = report.history;
@@ -211,8 +270,9 @@ fn unconverged<const D: usize, const N: usize>(time: f64, report: &Report, joint
 
 fn check_finite<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>) -> Result<(), StepError> {
     let finite = |i: usize| {
-        let (velocity, position) = (&world.bodies.velocity[i], &world.bodies.pose[i].position);
-        velocity.iter().chain(position).all(|x| x.is_finite()) || !world.bodies.is_present(i)
+        let (velocity, Pose { position, rotation }) = (&world.bodies.velocity[i], &world.bodies.pose[i]);
+        let rotation = S::numbers(*rotation);
+        velocity.iter().chain(position).chain(&rotation).all(|x| x.is_finite()) || !world.bodies.is_present(i)
     };
     let first = |mut part: Range<usize>| part.find(|&i| !finite(i));
     match tasks::fold(0..world.bodies.len(), &first, &Option::or) {

@@ -1,11 +1,13 @@
 //! What a step tells: solver, penetration, energy ledger, seconds.
 
+use super::created::Created;
 use super::guard::Breach;
 use super::joints::Block;
 use super::workspace::Localised;
 use crate::bodies::Bodies;
+use crate::shape::Shape;
 use crate::space::Space;
-use moreau_solve::block::dot;
+use moreau_solve::block::{dot, norm};
 use moreau_solve::tasks;
 use moreau_solve::{Residual, Status};
 use serde::{Deserialize, Serialize};
@@ -17,14 +19,14 @@ pub struct Energy {
     pub kinetic: f64,
     /// −Σ m g·x.
     pub potential: f64,
-    /// Done by forces and torques and by driven bodies, and brought by bodies that came, went, or became free or driven, and by corrections
-    /// of positions.
+    /// Done by forces and torques and by driven bodies, and brought by bodies that came, went, or became free or driven.
     pub work: f64,
-    /// Lost in contacts and joints, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round.
+    /// Lost in contacts and joints, and by the scheme: where θ > 1/2, and in the rotation of bodies that are not round. Corrections of
+    /// positions count as well: weights that they lift are a negative loss.
     pub dissipated: f64,
     /// Of this, by the normal impulses of contacts: impacts.
     pub impact: f64,
-    /// And by their tangential impulses: friction. What is left of `dissipated` is the scheme's and that of joints.
+    /// And by their tangential impulses: friction. The rest of `dissipated` belongs to joints, to the scheme and to corrections.
     pub friction: f64,
     /// kinetic + potential − work + dissipated, less its value at the start: rounding, if all is well.
     pub balance_error: f64,
@@ -66,9 +68,17 @@ pub struct StepRecord {
     pub residual: Residual,
     /// Deepest overlap of two bodies at the predicted configuration, m; zero if none.
     pub penetration: f64,
+    /// Deepest overlap as a part of the smaller body's bounding radius; zero if there is none.
+    pub overlap: f64,
     /// The greatest error of position that a joint is left with at the next predicted configuration, m, angles times the arm of its bodies;
     /// zero without joints.
     pub joint_error: f64,
+    /// The greatest such error as a part of the smaller body's bounding radius; zero without joints.
+    pub joint_gap: f64,
+    /// Energy created by the step, J, by part.
+    pub created: Created,
+    /// Energy that moves each free body by its own bounding radius against its weight and load, J: the energy at hand where all is at rest.
+    pub lift: f64,
     /// Energies.
     pub energy: Energy,
     /// How it broke a limit of [`Guard`](crate::world::Guard), where that is only counted.
@@ -82,6 +92,26 @@ impl StepRecord {
     pub fn converged(&self) -> bool {
         self.status == Status::Converged
     }
+
+    /// Returns the name of the first number that is NaN or infinite.
+    pub(super) fn not_finite(&self) -> Option<&'static str> {
+        let (energy, residual) = (&self.energy, &self.residual);
+        let numbers = [
+            ("kinetic energy", energy.kinetic),
+            ("potential energy", energy.potential),
+            ("work", energy.work),
+            ("dissipated energy", energy.dissipated),
+            ("energy dissipated by impacts", energy.impact),
+            ("energy dissipated by friction", energy.friction),
+            ("error of the energy balance", energy.balance_error),
+            ("energy created", self.created.total()),
+            ("depth of the deepest overlap", self.penetration),
+            ("error of a joint", self.joint_error),
+            ("residual ε_glob of the contact solver", residual.eps_glob.total()),
+            ("scaled residual of the contact solver", residual.scaled),
+        ];
+        numbers.iter().find(|(_, x)| !x.is_finite()).map(|&(name, _)| name)
+    }
 }
 
 /// The running sums of the energy ledger.
@@ -92,6 +122,17 @@ pub(super) struct Ledger {
     dissipated: f64,
     impact: f64,
     friction: f64,
+}
+
+/// One body's part of the ledger in a step, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Balance {
+    /// Work of its load.
+    work: f64,
+    /// What the scheme loses before settling: for θ > 1/2, and by the gyroscopic term.
+    pub(super) scheme: f64,
+    /// See [`StepRecord::lift`].
+    lift: f64,
 }
 
 /// Kinetic and potential energy of the free bodies.
@@ -112,7 +153,8 @@ impl Ledger {
         });
     }
 
-    /// Books one step, before the bodies move. `smooth` is v_free, `after` is v⁺.
+    /// Books one step, before the bodies move; returns [`StepRecord::lift`]. `smooth` is v_free, `after` is v⁺; `balance` gets each body's
+    /// part.
     ///
     /// The scheme's own identity: ΔK = v_m·M Δv with v_m = (v + v⁺)/2, and M Δv = h f + gyroscopic + H p. Displacements are those of
     /// v_θ = θ v⁺ + (1 − θ) v, so loads and gravity do work on v_θ; what v_m misses of that is lost by the scheme.
@@ -123,7 +165,8 @@ impl Ledger {
         [smooth, after]: [&[[f64; N]]; 2],
         contacts: &[Localised<D>],
         (h, theta): (f64, f64),
-    ) {
+        balance: &mut Vec<Balance>,
+    ) -> f64 {
         let of_body = |i: usize| {
             let (v, mass) = (&bodies.velocity[i], &bodies.mass[i]);
             let (mut work, mut displaced, mut middle) = (0.0, 0.0, 0.0);
@@ -139,19 +182,23 @@ impl Ledger {
             for k in 0..N {
                 middle += mass[k] * (smooth[i][k] - v[k]) * 0.5 * (v[k] + after[i][k]);
             }
-            [work, displaced - middle]
+            let push: [f64; D] = std::array::from_fn(|k| mass[k] * gravity[k] + bodies.load[i][k]);
+            let lift = norm(&push) * bodies.shape[i].bounding_radius().unwrap_or(0.0);
+            Balance { work, scheme: displaced - middle, lift }
         };
         let of_contact = |c: usize| {
             let c = &contacts[c];
             let mean: [f64; D] = std::array::from_fn(|i| 0.5 * (c.before[i] + c.after[i]));
             [-dot(&c.impulse, &c.driven), -c.impulse[0] * mean[0], -(1..D).map(|i| c.impulse[i] * mean[i]).sum::<f64>()]
         };
-        let bodies = tasks::sums(0..bodies.len(), &|i| if bodies.is_free(i) { of_body(i) } else { [0.0; 2] });
+        tasks::fill(balance, bodies.len(), |i| if bodies.is_free(i) { of_body(i) } else { Balance::default() });
+        let [work, scheme, lift] = tasks::sums(0..bodies.len(), &|i| [balance[i].work, balance[i].scheme, balance[i].lift]);
         let contacts = tasks::sums(0..contacts.len(), &of_contact);
-        self.work += bodies[0] + contacts[0];
+        self.work += work + contacts[0];
         self.impact += contacts[1];
         self.friction += contacts[2];
-        self.dissipated += bodies[1] + (contacts[1] + contacts[2]);
+        self.dissipated += scheme + (contacts[1] + contacts[2]);
+        lift
     }
 
     /// Books what joints do, as contacts do.
@@ -168,12 +215,12 @@ impl Ledger {
         self.dissipated
     }
 
-    /// Books what events and corrections of positions bring.
+    /// Books what events bring.
     pub(super) fn bring(&mut self, energy: f64) {
         self.work += energy;
     }
 
-    /// Books what the scheme takes beside.
+    /// Books what settling and corrections of positions take.
     pub(super) fn dissipate(&mut self, energy: f64) {
         self.dissipated += energy;
     }

@@ -1,10 +1,11 @@
 //! Scratch of a step: buffers that are written anew each time and kept, and what observers read of the last step.
 
 use super::correct::Correction;
+use super::created::Islands;
 use super::failed::{Failed, FailedSolve};
 use super::joints::{Reaction, StepJoints};
 use super::localise::Spins;
-use super::record::Ledger;
+use super::record::{Balance, Ledger};
 use super::system::Systems;
 use crate::contacts::{Contact, ContactKey};
 use crate::detect::Detector;
@@ -98,6 +99,8 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) systems: Systems<S, D, N>,
     pub(super) correction: Correction<D, N>,
     pub(super) ledger: Ledger,
+    pub(super) balance: Vec<Balance>,
+    pub(super) islands: Islands,
     pub(super) failed: Failed,
     pub(crate) history: Vec<HistoryRow>,
 }
@@ -121,6 +124,8 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             systems: Systems::default(),
             correction: Correction::default(),
             ledger: Ledger::default(),
+            balance: Vec::new(),
+            islands: Islands::default(),
             failed: Failed::default(),
             history: Vec::new(),
         }
