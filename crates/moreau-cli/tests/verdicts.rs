@@ -98,7 +98,8 @@ fn steps_that_do_not_converge_and_limits_that_are_broken_are_reasons() {
     let reasons = same_everywhere(&place, "out/rest", false);
     assert!(reasons.len() == 1 && reasons[0].contains("20 steps broke a limit of [guard]; the first: step 1"), "{reasons:?}");
     place.write("kane.toml", KANE);
-    let sets = ["--set", "solver.max_sweeps=1", "--set", "solver.tolerance=1e-15", "--set", "solver.global=\"nlgs\""];
+    // One projected step with a parameter does not solve a contact with friction.
+    let sets = ["--set", "solver.max_sweeps=1", "--set", "solver.local=sbp", "--set", "solver.global=nlgs"];
     let said = place.moreau(&[["run", "kane.toml"].as_slice(), &sets].concat()).fine();
     let reasons = same_everywhere(&place, "out/kane", false);
     assert!(reasons[0].starts_with("the solver did not meet its criterion in "), "{reasons:?}");
@@ -108,7 +109,8 @@ fn steps_that_do_not_converge_and_limits_that_are_broken_are_reasons() {
 #[test]
 fn numbers_that_overflow_end_the_run_with_a_message() {
     let place = Place::with("rest.toml", REST);
-    let ran = place.moreau(&["run", "rest.toml", "--set", "bodies.1.velocity=[1e300,0.0]"]);
+    let sets = ["--set", "bodies.1.velocity=[1e300,0.0]", "--set", "bodies.1.position=[0.0,50.0]"];
+    let ran = place.moreau(&[["run", "rest.toml"].as_slice(), &sets].concat());
     assert_eq!(ran.code, Some(4), "{ran:?}");
     assert!(
         ran.err.starts_with("error: ") && ran.err.contains("not a finite number") && ran.err.contains("t = 0.001 s"),

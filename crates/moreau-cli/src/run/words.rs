@@ -12,6 +12,7 @@ use std::path::Path;
 pub(super) fn describe(outcome: &Outcome, bodies: usize, settings: &StepSettings, folder: &Path) -> String {
     let summary = &outcome.summary;
     let unconverged = match summary.unconverged() {
+        0 if matches!(outcome.end, End::Failed(_)) => "then a step failed".to_owned(),
         0 => "every step converged".to_owned(),
         count => format!("{count} steps did NOT converge"),
     };

@@ -8,9 +8,10 @@ use crate::step::Created;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Deepest overlap, as a part of the smaller body's bounding radius. A contact is found at a predicted configuration, so an impact leaves
-/// an overlap of about half the way of a step; beyond this part the shape of the packing is no longer the one that was asked for.
-pub const OVERLAP: f64 = 1e-2;
+/// Deepest overlap, as a part of the smaller body's bounding radius. A contact is found at a predicted configuration, half a step ahead, so
+/// an impact leaves an overlap of up to half the way of a step. At this bound bodies that meet come a tenth of a radius nearer in a step:
+/// beyond it the step is too long for the motion. Sinking in lasting contact has the same bound.
+pub const OVERLAP: f64 = 5e-2;
 
 /// Greatest error of a joint, as a part of the smaller body's bounding radius. A step closes joints to rounding or to the tolerance of
 /// its solver; the unit is that of theory (67), where 1e-3 is the overlap that is left alone.
@@ -120,7 +121,7 @@ fn joints(summary: &Summary) -> Option<Check> {
 /// True if more energy was created than rounding creates.
 pub(super) fn beyond_rounding(summary: &Summary) -> bool {
     let created = summary.books.created.total();
-    !(created <= ROUNDING * summary.books.turnover())
+    exceeds(created, ROUNDING * summary.books.turnover())
 }
 
 fn energy(summary: &Summary) -> Check {
@@ -134,7 +135,7 @@ fn energy(summary: &Summary) -> Check {
         .iter()
         .zip(Created::NAMES)
         .zip(books.worst)
-        .filter(|((energy, _), _)| !(**energy <= ROUNDING * turnover))
+        .filter(|((energy, _), _)| exceeds(**energy, ROUNDING * turnover))
         .map(|((energy, name), worst)| {
             format!("{} J by {name} (most in step {}: {} J)", figures(*energy), worst.step, figures(worst.energy))
         })
@@ -165,6 +166,11 @@ fn ledger(summary: &Summary) -> Check {
     let text =
         format!("the energy ledger is open by {} J, {} of its largest number", figures(error), percent(share(error, whole)));
     Check { name: "Ledger", passed, text: limited(text, passed, ROUNDING) }
+}
+
+/// True if a number is above its bound or NaN.
+fn exceeds(x: f64, bound: f64) -> bool {
+    x > bound || x.is_nan()
 }
 
 /// Adds the bound that was exceeded.

@@ -71,6 +71,9 @@ impl Islands {
         contacts: &[Localised<D>],
         blocks: &[Block<D, N>],
     ) -> Created {
+        if blocks.is_empty() && contacts.iter().all(|c| c.impulse == [0.0; D]) {
+            return Created::default();
+        }
         self.parent.clear();
         self.parent.extend(0..bodies.len() as u32);
         self.work.clear();

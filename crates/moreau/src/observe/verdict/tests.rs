@@ -109,7 +109,7 @@ fn rows_of_the_table_give_the_same_verdict() {
     let mut rows = Vec::new();
     for step in 1..=6 {
         let mut record = sound(step);
-        record.overlap = 0.02;
+        record.overlap = 0.0625;
         record.created.contacts = 0.5;
         record.energy.dissipated = -0.5 * step as f64;
         record.joint_error = 0.25;
