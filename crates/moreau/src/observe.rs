@@ -17,8 +17,7 @@ mod vtk;
 
 pub use failed::FailedProblems;
 pub use measures::MeasuresCsv;
-pub(crate) use steps::numbers;
-pub use steps::{COLUMNS, StepsCsv};
+pub use steps::{COLUMNS, StepsCsv, numbers};
 pub use summary::Summary;
 pub use trajectory::TrajectoryOutput;
 pub use verdict::Verdict;

@@ -66,8 +66,7 @@ pub struct Guard<const D: usize> {
     pub domain: Option<[[f64; D]; 2]>,
     /// How deep bodies may overlap at the predicted configuration, as a part of the smaller one's bounding radius.
     pub penetration: Option<f64>,
-    /// How much energy a step may create, J: by how much kinetic and potential energy may grow beyond the work done. Rounding and the
-    /// solver's tolerance create some.
+    /// How much energy a step may create, J, the sum of its parts: theory (80). Rounding and the solver's tolerance create some.
     pub energy: Option<f64>,
     /// What to do when a step breaks one of them.
     pub policy: OnBreach,

@@ -7,11 +7,11 @@ use serde_json::{Value, json};
 
 /// The step in which a part of the scheme created most energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Worst {
+pub(super) struct Worst {
     /// Its number; 0 where no step created any.
-    pub step: u64,
+    pub(super) step: u64,
     /// Energy created in it, J.
-    pub energy: f64,
+    pub(super) energy: f64,
 }
 
 /// Sums and extremes of the energy ledger.

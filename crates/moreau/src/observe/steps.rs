@@ -52,8 +52,8 @@ const WHOLE: usize = 8;
 /// Where the seconds begin, of which few digits mean something.
 const SECONDS: usize = COLUMNS.len() - 4;
 
-/// The numbers of a row; whole numbers are below 2^53.
-pub(crate) fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
+/// Returns the numbers of a row; whole numbers are below 2^53.
+pub fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
     let (eps, energy, seconds) = (&r.residual.eps_glob, &r.energy, &r.seconds);
     [
         r.step as f64,

@@ -77,7 +77,7 @@ impl Summary {
     }
 
     /// Notes the error of the step that ended the run.
-    pub(crate) fn fail(&mut self, reason: String) {
+    pub fn fail(&mut self, reason: String) {
         self.failure = Some(reason);
     }
 

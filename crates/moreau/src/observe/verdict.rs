@@ -199,6 +199,3 @@ fn figures(x: f64) -> String {
         _ => format!("{x:.2e}"),
     }
 }
-
-#[cfg(test)]
-mod tests;
