@@ -132,7 +132,7 @@ fn energy_that_is_created_is_noticed_in_its_step() {
 }
 
 /// A square with a corner below and before its centre meets the floor with full normal restitution and sticks: Kane's paradox, theory (45).
-/// Mass 2 kg, inertia 1/3 kg m², the corner at (√2/4, −√6/4) from the centre.
+/// At the prediction it overlaps the floor by 1e-10 m. Mass 2 kg, inertia 1/3 kg m², the corner at (√2/4, −√6/4) from the centre.
 const KANE: &str = r#"
 dimension = 2
 time = { step = 1e-3, steps = 10 }
@@ -141,7 +141,7 @@ materials.steel.density = 2.0
 default_law.coulomb = { friction = 2.0, restitution = 1.0, tangential_restitution = 0.0 }
 bodies = [
   { material = "steel", position = [0.0, 0.0], shape.half_plane.normal = [0.0, 1.0] },
-  { material = "steel", position = [0.0, 0.6125724356957945], orientation = -0.2617993877991494, velocity = [-0.4, -1.0], shape.box.size = [1.0, 1.0] },
+  { material = "steel", position = [0.0, 0.6128724355957945], orientation = -0.2617993877991494, velocity = [-0.4, -1.0], shape.box.size = [1.0, 1.0] },
   # A disk far away slides where it lands, and loses more than the square gains.
   { material = "steel", position = [9.0, 0.5002], velocity = [5.0, -1.0], shape.disk.radius = 0.5 },
 ]
@@ -163,10 +163,10 @@ fn energy_that_a_law_creates_is_reported_by_part_and_is_not_hidden_by_what_other
     let tangential = 7.0 / 8.0 * 0.4 - 2.0 * 3.0 * 3.0_f64.sqrt() / 8.0;
     let expected = 0.5 * tangential * -0.4;
     let created = record.created;
-    assert!(expected > 0.12 && (created.contacts - expected).abs() < 1e-9, "{created:?}, {expected}");
+    assert!(expected > 0.12 && (created.contacts - expected).abs() < 1e-8, "{created:?}, {expected}");
     assert!([created.joints, created.correction].iter().all(|&x| x == 0.0) && created.scheme < 1e-15, "{created:?}");
     assert!(record.energy.impact.abs() < 1e-9, "a full rebound loses nothing");
-    assert!(record.energy.dissipated > 1.0 && record.energy.balance_error.abs() < 1e-14, "the step as a whole loses energy");
+    assert!(record.energy.dissipated > 1.0 && record.energy.balance_error.abs() < 1e-13, "the step as a whole loses energy");
     // The limit of energy counts the same number.
     let mut world = plane(&format!("{KANE}\n[guard]\nenergy = 0.1\npolicy = \"stop\""));
     let error = step(&mut world, &mut Workspace::default()).expect_err("0.19 J are created");
