@@ -137,7 +137,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
 
 /// What of a remainder counts where the gap has the rate `before`, m/s, at the predicted configuration: all in contact that lasts, whose rate at the
 /// beginning is next to nothing; at an impact, which changes the velocity that the remainder was taken from, the part that cannot make energy
-/// of first order (theory (82)).
+/// of first order (theory (84)).
 #[inline]
 fn lasting<const D: usize>(remainder: [f64; D], before: f64) -> [f64; D] {
     if remainder == [0.0; D] {

@@ -1,4 +1,4 @@
-//! Where two simple contours meet: normal, gap and point, wherever they are (theory (83)).
+//! Where two simple contours meet: normal, gap and point, wherever they are (theory (85)).
 //!
 //! With the farthest points σ_a(n) and σ_b(−n) along a unit vector n from a to b, the gap is the greatest value of
 //!

@@ -1,4 +1,4 @@
-//! Remainders of several points of one pair as those of one rigid motion (theory (84)).
+//! Remainders of several points of one pair as those of one rigid motion (theory (86)).
 //!
 //! Two rigid bodies that touch at several points stick at all of them or slip: of the velocities at two points those along the line between them are equal. Remainders
 //! differ from that by what is of second order, and a law that asks for velocities that no rigid motion has leaves impulses along that line without a limit. So the
