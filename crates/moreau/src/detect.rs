@@ -3,7 +3,8 @@
 //! Which bodies are near each other is remembered from call to call (`nearby`): each bounded body is held by a ball somewhat
 //! larger than itself and its reach, and as long as it stays inside, the pairs of these balls are all that can touch. Only when
 //! some body has left its ball does the broad phase (`broad`) find the pairs anew. Of the pairs that are listed, those whose
-//! bounding balls meet now go to the narrow phase (`narrow`), in the order of their keys. What comes out therefore depends
+//! bounding balls meet now go to the narrow phase (`narrow`), in the order of their keys. Contacts with sides that an adjoining piece
+//! of ground hides are taken out (`seams`). What comes out therefore depends
 //! neither on how the pairs were found nor on when. All scratch is kept from call to call.
 
 mod bound;
@@ -11,16 +12,18 @@ mod broad;
 pub(crate) mod narrow;
 mod nearby;
 mod pairs;
+mod seams;
 mod sift;
 mod skin;
 mod wall;
 
-pub(crate) use narrow::parts_of;
+pub(crate) use narrow::{parts_of, piece_of};
 
 use crate::contacts::Contact;
 use crate::space::{Pose, Space};
 use bound::Bound;
 use nearby::Nearby;
+use seams::Seams;
 use sift::Sieve;
 
 /// By how much coarse tests give way, so that their rounding never drops what the exact one would keep.
@@ -52,6 +55,7 @@ pub struct Detector<const D: usize> {
     bounds: Vec<Bound<D>>,
     nearby: Nearby<D>,
     sieve: Sieve<D>,
+    seams: Seams<D>,
 }
 
 impl<const D: usize> Detector<D> {
@@ -80,6 +84,7 @@ impl<const D: usize> Detector<D> {
         }
         let chunk = if self.nearby.all_round() { CHUNK } else { CHUNK_OF_SHAPES };
         self.sieve.contacts(&scene, &self.bounds, self.nearby.pairs(), chunk, out);
+        self.seams.mend(&scene, &self.bounds, &driven, out);
     }
 }
 

@@ -51,6 +51,9 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
     /// The orientation in which the body's frame is the world's.
     const IDENTITY: Self::Rotation;
 
+    /// A ball (2D: a disk) of this radius (m).
+    fn ball(radius: f64) -> Self::Shape;
+
     /// Turns a vector of the body's frame into the world's.
     fn rotate(rotation: Self::Rotation, v: [f64; D]) -> [f64; D];
 

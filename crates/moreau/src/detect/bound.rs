@@ -36,6 +36,12 @@ impl<const D: usize> Bound<D> {
         (!self.core.is_nan()).then_some(((self.centre, self.core), self.reach))
     }
 
+    /// True if the body is bounded and not round: its surface may have edges.
+    #[inline]
+    pub(super) fn has_edges(&self) -> bool {
+        self.core.is_nan() && self.radius.is_finite()
+    }
+
     /// Whether there is no such place, or no such ball: the body can touch nothing.
     pub(super) fn is_nowhere(&self) -> bool {
         self.radius.is_nan() || !self.centre.iter().all(|x| x.is_finite())

@@ -55,5 +55,5 @@ pub(crate) mod plane;
 pub(crate) mod solid;
 pub(crate) mod vector;
 
-pub(crate) use common::parts_of;
-pub(super) use common::two_round;
+pub(super) use common::{part_bits, two_round};
+pub(crate) use common::{parts_of, piece_of};

@@ -16,6 +16,10 @@ impl Space<2, 3> for Plane {
 
     const IDENTITY: [f64; 2] = [1.0, 0.0];
 
+    fn ball(radius: f64) -> PlaneShape {
+        crate::shape::plane::Disk { radius }.into()
+    }
+
     #[inline]
     fn rotate([c, s]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
         [c * x - s * y, s * x + c * y]

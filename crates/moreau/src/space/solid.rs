@@ -21,6 +21,10 @@ impl Space<3, 6> for Solid {
 
     const IDENTITY: DQuat = DQuat::IDENTITY;
 
+    fn ball(radius: f64) -> SolidShape {
+        crate::shape::solid::Ball { radius }.into()
+    }
+
     #[inline]
     fn rotate(rotation: DQuat, v: [f64; 3]) -> [f64; 3] {
         (rotation * DVec3::from(v)).into()

@@ -17,7 +17,7 @@ mod one_motion;
 use super::integrate::moved;
 use crate::bodies::Bodies;
 use crate::contacts::{Contact, ContactKey};
-use crate::detect::parts_of;
+use crate::detect::{parts_of, piece_of};
 use crate::shape::{Contour, Shape};
 use crate::space::{Pose, Space, placed, swept};
 use meet::{Meeting, meet};
@@ -139,7 +139,8 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Turning<'_, S, D, N> {
     /// The contours of the two bodies at a contact, in their frames. Of two flat ones the smaller body shows its point.
     fn contours(&self, contact: &Contact<D>, pair: [usize; 2]) -> [Contour<D>; 2] {
         let parts = pair.map(|i| self.bodies.shape[i].parts());
-        let (numbers, piece) = parts_of(contact.key.feature, parts.map(|parts| !parts.is_empty()));
+        let has_parts = parts.map(|parts| !parts.is_empty());
+        let (numbers, piece) = (parts_of(contact.key.feature, has_parts), piece_of(contact.key.feature, has_parts));
         let sides = [-1.0, 1.0].map(|sign| axpy(&contact.point, sign * 0.5 * contact.gap, &contact.normal));
         let contour = |k: usize, sign: f64| {
             let pose = &self.middle[pair[k]];

@@ -33,15 +33,38 @@ pub(super) fn on_last_part(part: usize, feature: u64) -> u64 {
     ((part as u64) << LAST_PART) | feature
 }
 
-/// The parts of the two bodies that a feature speaks of, of those that have parts (`several`), and the piece of a surface.
-pub(crate) fn parts_of(feature: u64, several: [bool; 2]) -> ([usize; 2], usize) {
-    let last = (feature >> LAST_PART) as usize;
-    let first = (feature >> FIRST_PART) as usize & ((1 << (LAST_PART - FIRST_PART)) - 1);
-    match several {
-        [true, true] => ([first, last], 0),
-        [true, false] | [false, true] => ([last, last], (feature >> PIECE) as usize & ((1 << (LAST_PART - PIECE)) - 1)),
-        [false, false] => ([0, 0], (feature >> PIECE) as usize),
+/// The parts of both bodies that a contact with this feature is on, 0 for a body that `has_parts` says is of one piece.
+#[inline]
+pub(crate) fn parts_of(feature: u64, has_parts: [bool; 2]) -> [usize; 2] {
+    const PART: u64 = (1 << (LAST_PART - FIRST_PART)) - 1;
+    let [first, last] = [FIRST_PART, LAST_PART].map(|bits| ((feature >> bits) & PART) as usize);
+    match has_parts {
+        [false, false] => [0, 0],
+        [true, false] => [last, 0],
+        [false, true] => [0, last],
+        [true, true] => [first, last],
     }
+}
+
+/// The bits of a feature that say which parts it is on.
+#[inline]
+pub(in crate::detect) fn part_bits(feature: u64, has_parts: [bool; 2]) -> u64 {
+    match has_parts {
+        [false, false] => 0,
+        [true, true] => feature >> FIRST_PART << FIRST_PART,
+        _ => feature >> LAST_PART << LAST_PART,
+    }
+}
+
+/// The piece of a surface that a contact with this feature is on.
+#[inline]
+pub(crate) fn piece_of(feature: u64, has_parts: [bool; 2]) -> usize {
+    let bits = match has_parts {
+        [true, true] => 0,
+        [false, false] => u64::MAX,
+        _ => (1 << (LAST_PART - PIECE)) - 1,
+    };
+    ((feature >> PIECE) & bits) as usize
 }
 
 /// Two round bodies (centre, radius). Where the centres coincide every direction is as good as another; the last axis is taken.
