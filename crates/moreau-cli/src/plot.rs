@@ -92,6 +92,7 @@ fn chart(run: &Recording, what: What) -> Chart {
                 ("eps_motion", "ε of motion"),
                 ("eps_bipotential", "ε of the bipotential"),
                 ("eps_penetration", "ε of penetration"),
+                ("eps_cone", "ε of the cone"),
                 ("scaled_residual", "scaled"),
             ];
             semilog("Residuals", time, "residual", &curves(run, &parts))

@@ -6,7 +6,7 @@ use common::{Place, TEN};
 use serde_json::Value;
 
 /// The columns of steps.csv, in order.
-const COLUMNS: &str = "step,time,bodies,contacts,active,sweeps,converged,breach,eps_motion,eps_bipotential,eps_penetration,eps_glob,\
+const COLUMNS: &str = "step,time,bodies,contacts,active,sweeps,converged,breach,eps_motion,eps_bipotential,eps_penetration,eps_cone,eps_glob,\
     scaled_residual,penetration,overlap,joint_error,joint_gap,kinetic,potential,work,dissipated,impact,friction,balance_error,\
     created,created_contacts,created_joints,created_correction,created_scheme,lift,\
     seconds_detect,seconds_localise,seconds_solve,seconds_step";

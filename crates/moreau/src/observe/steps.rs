@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 34] = [
+pub const COLUMNS: [&str; 35] = [
     "step",
     "time",
     "bodies",
@@ -22,6 +22,7 @@ pub const COLUMNS: [&str; 34] = [
     "eps_motion",
     "eps_bipotential",
     "eps_penetration",
+    "eps_cone",
     "eps_glob",
     "scaled_residual",
     "penetration",
@@ -67,6 +68,7 @@ pub fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
         eps.motion,
         eps.bipotential,
         eps.penetration,
+        eps.cone,
         eps.total(),
         r.residual.scaled,
         r.penetration,
@@ -96,7 +98,7 @@ pub fn numbers(r: &StepRecord) -> [f64; COLUMNS.len()] {
 /// Returns the record with this row, and whether it broke a limit. The row does not say which limit, or why a solve ended.
 pub(crate) fn record_of(row: &[f64; COLUMNS.len()]) -> (StepRecord, bool) {
     let [step, time, bodies, contacts, active, sweeps, converged, breach, rest @ ..] = *row;
-    let [motion, bipotential, eps_penetration, _, scaled, penetration, overlap, joint_error, joint_gap, rest @ ..] = rest;
+    let [motion, bipotential, eps_penetration, cone, _, scaled, penetration, overlap, joint_error, joint_gap, rest @ ..] = rest;
     let [kinetic, potential, work, dissipated, impact, friction, balance_error, _, rest @ ..] = rest;
     let [by_contacts, by_joints, by_correction, by_scheme, lift, detect, localise, solve, whole] = rest;
     let record = StepRecord {
@@ -108,7 +110,7 @@ pub(crate) fn record_of(row: &[f64; COLUMNS.len()]) -> (StepRecord, bool) {
         sweeps: sweeps as u64,
         status: if converged == 1.0 { Status::Converged } else { Status::MaxSweeps },
         residual: Residual {
-            eps_glob: EpsGlob { motion, bipotential, penetration: eps_penetration },
+            eps_glob: EpsGlob { motion, bipotential, penetration: eps_penetration, cone },
             scaled,
             ..Residual::default()
         },
