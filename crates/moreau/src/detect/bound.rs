@@ -36,10 +36,11 @@ impl<const D: usize> Bound<D> {
         (!self.core.is_nan()).then_some(((self.centre, self.core), self.reach))
     }
 
-    /// True if the body is bounded and not round: its surface may have edges.
+    /// True if the surface of body `i`, whose ball this is, may have edges: if it is neither round nor a half-space.
     #[inline]
-    pub(super) fn has_edges(&self) -> bool {
-        self.core.is_nan() && self.radius.is_finite()
+    pub(super) fn has_edges<S: Space<D, N>, const N: usize>(&self, scene: &Scene<'_, S, D, N>, i: usize) -> bool {
+        let is_half_space = || scene.shapes[i].bounding_normal(scene.poses[i].rotation).is_some();
+        self.core.is_nan() && (self.radius.is_finite() || (self.radius == f64::INFINITY && !is_half_space()))
     }
 
     /// Whether there is no such place, or no such ball: the body can touch nothing.

@@ -68,7 +68,9 @@ impl<const D: usize> Patch<D> {
 /// Scratch, kept from call to call.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Seams<const D: usize> {
-    /// True for bodies that touch one with edges.
+    /// True for bodies with edges.
+    edged: Vec<bool>,
+    /// True for bodies that touch one of these.
     beside_edges: Vec<bool>,
     patches: Vec<Patch<D>>,
     /// True for contacts to remove.
@@ -88,10 +90,12 @@ impl<const D: usize> Seams<D> {
         driven: &impl Fn(usize) -> bool,
         contacts: &mut Vec<Contact<D>>,
     ) {
-        if !bounds.iter().any(Bound::has_edges) {
+        self.edged.clear();
+        self.edged.extend(bounds.iter().enumerate().map(|(i, bound)| bound.has_edges(scene, i)));
+        if !self.edged.contains(&true) {
             return;
         }
-        self.collect(scene, bounds, driven, contacts);
+        self.collect(scene, driven, contacts);
         self.hidden.clear();
         self.hidden.resize(contacts.len(), false);
         self.instead.clear();
@@ -99,8 +103,11 @@ impl<const D: usize> Seams<D> {
         for of_body in patches.chunk_by(|p, q| p.of.0 == q.of.0) {
             let within_body = of_body.len() > MANY || driven(of_body[0].of.0 as usize);
             for pieces in of_body.chunk_by(|p, q| !within_body || p.on.0 == q.on.0) {
-                let edged = |patch: &&Patch<D>| bounds[patch.on.0 as usize].has_edges();
-                pieces.iter().filter(edged).for_each(|patch| self.ask(scene, contacts, patch, pieces));
+                for patch in pieces {
+                    if self.edged[patch.on.0 as usize] {
+                        self.ask((scene, driven), contacts, patch, pieces);
+                    }
+                }
             }
         }
         self.patches = patches;
@@ -111,17 +118,16 @@ impl<const D: usize> Seams<D> {
     fn collect<S: Space<D, N>, const N: usize>(
         &mut self,
         scene: &Scene<'_, S, D, N>,
-        bounds: &[Bound<D>],
         driven: &impl Fn(usize) -> bool,
         contacts: &[Contact<D>],
     ) {
-        let Self { beside_edges, patches, .. } = self;
+        let Self { edged, beside_edges, patches, .. } = self;
         beside_edges.clear();
-        beside_edges.resize(bounds.len(), false);
+        beside_edges.resize(edged.len(), false);
         for contact in contacts {
             let [a, b] = [contact.key.a as usize, contact.key.b as usize];
-            beside_edges[a] |= bounds[b].has_edges();
-            beside_edges[b] |= bounds[a].has_edges();
+            beside_edges[a] |= edged[b];
+            beside_edges[b] |= edged[a];
         }
         patches.clear();
         let asked = |contact: &Contact<D>| beside_edges[contact.key.a as usize] || beside_edges[contact.key.b as usize];
@@ -152,15 +158,18 @@ impl<const D: usize> Seams<D> {
     /// Marks the contacts of a patch if another one of these patches of the same body is on a piece that hides them.
     fn ask<S: Space<D, N>, const N: usize>(
         &mut self,
-        scene: &Scene<'_, S, D, N>,
+        (scene, driven): (&Scene<'_, S, D, N>, &impl Fn(usize) -> bool),
         contacts: &[Contact<D>],
         patch: &Patch<D>,
         pieces: &[Patch<D>],
     ) {
         let range = patch.contacts[0]..patch.contacts[1];
         let own = &contacts[range.clone()];
+        // Pieces of ground, or of one body: free bodies, such as the stones of an arch, part at their sides, and must bear on them.
+        let is_ground = driven(patch.on.0 as usize);
         let may_hide = |over: &&Patch<D>| {
             over.on != patch.on
+                && (over.on.0 == patch.on.0 || is_ground && driven(over.on.0 as usize))
                 && dot(over.normal, patch.normal) < 1.0 - SAME
                 && patch.highest(over.normal, own) <= over.top + patch.margin()
         };
