@@ -1,6 +1,7 @@
 //! Stage 9: the impulses, and with joints the rounds that close them.
 //!
 //! ```text
+//! with contacts:  solve the contact problem with s = c(q_m)/h
 //! repeat:  change the impulses of the joints until c(q_m⁺(v⁺)) = 0, those of contacts as they are     (Newton, theory (59))
 //!          s = −H* v⁺ at what joints hold
 //!          done if the impulses obey the laws with these s
@@ -39,6 +40,10 @@ pub(super) fn solve<S: Space<D, N>, const D: usize, const N: usize>(
         return work.systems.get(kind).solve(settings);
     }
     let mut report = Report { status: Status::Stalled, ..Report::default() };
+    if !work.contacts.is_empty() {
+        // Where the impulses of contacts are not known, closing joints asks for velocities that sticking contacts cannot have.
+        report = work.systems.get(kind).solve(settings);
+    }
     for round in 0..=ROUNDS {
         let newton = newton::close(world, work, h);
         if newton {

@@ -37,6 +37,8 @@ pub(super) struct Block<const D: usize, const N: usize> {
     pub(super) ahead: [[[f64; N]; D]; 2],
     /// What a spin and a sine are multiplied by to be a velocity and a length, m (theory (58)); 1 for translations.
     arm: f64,
+    /// The size of the joint, which its errors are held against: from the centres of its bodies to its point, at least the arm of its bodies, m.
+    size: f64,
     /// Added to the velocity in the solve: the errors of position that it closes, over h, m/s.
     pub(super) shift: [f64; D],
     /// The error of position at the next prediction, by which the shift is to grow times h, m.
@@ -131,8 +133,10 @@ impl<const D: usize, const N: usize> StepJoints<D, N> {
             let placed = joint.at::<S, N>(poses);
             for part in [Part::Translation, Part::Rotation] {
                 if joint.kind.held::<D, N>(part) != 0 {
-                    let arm = if part == Part::Rotation { joint.arm(&world.bodies) } else { 1.0 };
+                    let own = joint.arm(&world.bodies);
+                    let arm = if part == Part::Rotation { own } else { 1.0 };
                     let mut block = Block::new::<S>((index, joint), part, &placed, &poses, arm);
+                    block.size = joint.anchor.iter().map(norm).fold(own, f64::max);
                     block.shift = placed.error::<N>(part).map(|c| arm * c / h);
                     block.meet(&world.bodies, free);
                     self.blocks.push(block);
@@ -172,7 +176,7 @@ impl<const D: usize, const N: usize> StepJoints<D, N> {
             block.miss = joint.at::<S, N>(poses).error::<N>(block.part).map(|c| block.arm * c);
             let error = norm(&block.miss);
             self.left = self.left.max(error);
-            let [enough, bound] = block.bounds(joint, &poses);
+            let [enough, bound] = block.bounds(&poses);
             closed &= error <= enough;
             self.openness += (error / enough).powi(2);
             let worse = self.worst.is_none_or(|(_, worst, limit)| error * limit > worst * bound);
@@ -279,15 +283,14 @@ impl<const D: usize, const N: usize> StepJoints<D, N> {
 
 impl<const D: usize, const N: usize> Block<D, N> {
     /// The errors (m) below which it counts as closed, and above which it counts as open, with its sides at these poses.
-    fn bounds<R>(&self, joint: &Joint<D>, poses: &[Pose<R, D>; 2]) -> [f64; 2] {
+    fn bounds<R>(&self, poses: &[Pose<R, D>; 2]) -> [f64; 2] {
         let far = poses.iter().flat_map(|pose| pose.position).fold(0.0_f64, |far, x| far.max(x.abs()));
-        let size = joint.anchor.iter().map(norm).fold(self.arm, f64::max);
-        [CLOSED, OPEN].map(|part| part * size + 16.0 * f64::EPSILON * far)
+        [CLOSED, OPEN].map(|part| part * self.size + 16.0 * f64::EPSILON * far)
     }
 
     /// Whether this error (m) is as good as none.
-    pub(super) fn is_closed<R>(&self, joint: &Joint<D>, poses: &[Pose<R, D>; 2], error: &[f64; D]) -> bool {
-        norm(error) <= self.bounds(joint, poses)[0]
+    pub(super) fn is_closed<R>(&self, poses: &[Pose<R, D>; 2], error: &[f64; D]) -> bool {
+        norm(error) <= self.bounds(poses)[0]
     }
 
     /// Adds to the velocities what an impulse does to its bodies.
@@ -326,6 +329,7 @@ impl<const D: usize, const N: usize> Block<D, N> {
             rows,
             ahead: rows,
             arm,
+            size: arm,
             shift: zero,
             miss: zero,
             before: zero,

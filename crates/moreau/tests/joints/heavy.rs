@@ -73,8 +73,11 @@ fn a_chain_with_an_end_a_thousand_times_heavier_keeps_its_energy() {
 #[test]
 fn steps_that_are_too_long_for_a_heavy_end_say_so() {
     for ratio in [1e3, 1e4, 1e6] {
-        let (failed, open, _) = swing(&mut solid(&chain(ratio, "\"warn\"", &ball))).unwrap();
-        assert!(failed > 0 && open < 1e-6, "ratio {ratio}: {failed} steps failed, open by {open} m");
+        // A run that goes on counts its failed steps, or ends because its energy overflows.
+        match swing(&mut solid(&chain(ratio, "\"warn\"", &ball))) {
+            Ok((failed, open, _)) => assert!(failed > 0 && open < 1e-6, "ratio {ratio}: {failed} steps failed, open by {open} m"),
+            Err(error) => assert!(matches!(error, StepError::Overflow { .. }), "ratio {ratio}: {error}"),
+        }
         let error = swing(&mut solid(&chain(ratio, "\"stop\"", &ball))).expect_err("too long a step");
         let named = matches!(error, StepError::OpenJoint { .. } | StepError::StrainedBody { .. });
         assert!(named, "ratio {ratio}: {error:?}");

@@ -2,6 +2,7 @@
 
 use super::{close, head, plane, run, solid};
 use moreau::step::{Workspace, step};
+use moreau::world::OnFailure;
 
 /// A chain of eight pinned bars between two points falls and is stopped whenever its kinetic energy has begun to fall, until it rests. There
 /// the reactions at the ends carry the weight, half each, and pull with the same force; and each bar hangs by the law of the chain: the tangents
@@ -34,6 +35,8 @@ fn a_chain_hangs_as_statics_says() {
         let _ = write!(text, "[[joints]]\nkind.hinge = {{ anchor = [{x:?}, {y:?}] }}\nbetween = [{between}]\n");
     }
     let mut world = plane(&text);
+    // Where bars whip round a step is too long to close all hinges.
+    world.settings.on_failure = OnFailure::Halve;
     let (mut work, mut kinetic) = (Workspace::default(), 0.0);
     for _ in 0..6000 {
         let record = step(&mut world, &mut work).unwrap_or_else(|error| panic!("{error}"));

@@ -51,7 +51,7 @@ impl<const D: usize, const N: usize> Held<D, N> {
                 let start = self.start.get(self.blocks.len()).copied().unwrap_or([0.0; D]);
                 let error = placed.error::<N>(part);
                 block.shift = std::array::from_fn(|i| arm * error[i] - start[i]);
-                closed &= block.is_closed(joint, &poses, &block.shift);
+                closed &= block.is_closed(&poses, &block.shift);
                 self.blocks.push(block);
             }
         }
