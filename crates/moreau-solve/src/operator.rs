@@ -3,10 +3,12 @@
 pub mod balls;
 pub(crate) mod colouring;
 mod delassus;
+mod lightest;
 mod matrix_free;
 
 pub use balls::Balls;
 pub use delassus::Delassus;
+pub use lightest::Lightest;
 pub use matrix_free::{MatrixFree, NONE};
 
 use crate::block::{Matrix, Vector};

@@ -11,6 +11,7 @@ mod integrate;
 mod joints;
 mod localise;
 mod moreau_jean;
+mod recall;
 mod record;
 mod state;
 mod system;

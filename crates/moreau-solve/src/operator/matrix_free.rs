@@ -64,6 +64,16 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         of
     }
 
+    /// How many bodies there are.
+    pub(super) fn bodies(&self) -> usize {
+        self.bodies
+    }
+
+    /// The two blocks of a contact's row of J.
+    pub(super) fn rows(&self, c: usize) -> &[[[f64; N]; D]; 2] {
+        &self.contacts[c].rows
+    }
+
     /// The bodies of a contact, [`NONE`] in place of one that impulses do not move.
     pub(super) fn pair(&self, c: usize) -> [u32; 2] {
         self.contacts[c].pair

@@ -3,7 +3,8 @@
 use super::localise::{Localiser, margins, speed};
 use super::system::Kind;
 use super::turning::Turning;
-use super::{Localised, Workspace};
+use super::{Workspace, recall};
+use crate::bodies::Bodies;
 use crate::contacts::ContactKey;
 use crate::shape::Shape;
 use crate::space::Space;
@@ -18,27 +19,42 @@ pub(super) fn detect<S: Space<D, N>, const D: usize, const N: usize>(
 ) {
     let bodies = &world.bodies;
     let approach = world.laws.iter().any(|law| law.acts() == Acts::Approach);
-    tasks::fill(&mut work.reach, bodies.len(), |i| reach(world, i, &work.free[i], h, approach));
+    if approach {
+        tasks::fill(&mut work.speeds, bodies.len(), |i| fastest(world, i, &work.free[i]));
+        hand_on(bodies, &work.previous, &mut work.speeds);
+    }
+    tasks::fill(&mut work.reach, bodies.len(), |i| {
+        let [beside, rounding] = margins(bodies, i, 0.01);
+        if approach { 2.0 * h * work.speeds[i] + beside + rounding } else { rounding }
+    });
     work.detector.detect::<S, N>(&bodies.shape, &work.middle, &work.reach, |i| !bodies.is_free(i), &mut work.found);
     work.joints.part(&world.joints, &mut work.found);
 }
 
-/// How far from body `i` contacts matter. Closed ones: rounding. On approach: what it may travel in the step, doubled for what
-/// other contacts add to its speed, and a part of its size.
-fn reach<S: Space<D, N>, const D: usize, const N: usize>(
-    world: &World<S, D, N>,
-    i: usize,
-    free: &[f64; N],
-    h: f64,
-    approach: bool,
-) -> f64 {
-    let [beside, rounding] = margins(&world.bodies, i, 0.01);
-    if !approach {
-        return rounding;
-    }
+/// The greatest speed of a point of body `i` in the step, as far as it is known before the solve, m/s. Contacts matter as far as it may travel, doubled for what
+/// other contacts add to its speed, and by a part of its size. Those that act only when closed matter within rounding.
+fn fastest<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, i: usize, free: &[f64; N]) -> f64 {
     let radius = world.bodies.shape[i].bounding_radius().unwrap_or(0.0);
-    let fastest = speed::<D, N>(radius, free).max(speed::<D, N>(radius, &world.bodies.velocity[i]));
-    2.0 * h * fastest + beside + rounding
+    speed::<D, N>(radius, free).max(speed::<D, N>(radius, &world.bodies.velocity[i]))
+}
+
+/// Through how many bodies an impact is handed on in looking for contacts.
+const HANDED_ON: usize = 3;
+
+/// Gives free bodies the speed of those that they touched in the step before: what is hit may go as fast as what hits it, and so may what that touches. Of a body at
+/// rest contacts would be found a step too late otherwise.
+fn hand_on<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    previous: &[(ContactKey, [f64; D])],
+    speeds: &mut [f64],
+) {
+    for _ in 0..HANDED_ON {
+        for (key, _) in previous {
+            let pair = [key.a, key.b].map(|body| body as usize);
+            let fastest = pair.iter().filter_map(|&body| speeds.get(body).copied()).fold(0.0, f64::max);
+            pair.into_iter().filter(|&body| body < bodies.len() && bodies.is_free(body)).for_each(|body| speeds[body] = fastest);
+        }
+    }
 }
 
 /// Localises the contacts that were found into the system of the coordinates that they need.
@@ -63,34 +79,13 @@ pub(super) fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
     localiser.each(&work.found, &mut work.contacts);
     work.joints.localise(world, &work.middle, &work.free, h);
     if world.settings.start == Start::Warm {
-        recall(&work.previous, &mut work.contacts);
+        recall::recall(&work.previous, &mut work.contacts);
         work.joints.recall();
     }
     work.systems.get(kind).fill(bodies, &work.middle, &work.contacts, &mut work.curve);
     if kind == Kind::Full {
         work.systems.full.join(bodies, &work.joints.blocks);
+        recall::lighten(world, work, h);
     }
     kind
-}
-
-/// Gives contacts the impulses of the step before, as far as they had any. Both lists are sorted by key.
-fn recall<const D: usize>(previous: &[(ContactKey, [f64; D])], contacts: &mut [Localised<D>]) {
-    tasks::parts(contacts, |_, contacts| {
-        let Some(first) = contacts.first() else { return };
-        let mut last = previous[previous.partition_point(|(before, _)| *before < first.contact.key)..].iter().peekable();
-        for contact in contacts {
-            let key = contact.contact.key;
-            while last.next_if(|(before, _)| *before < key).is_some() {}
-            if let Some((_, r)) = last.next_if(|(before, _)| *before == key) {
-                contact.impulse = *r;
-            }
-        }
-    });
-}
-
-/// Keeps the impulses of a step that was taken, for the next to start from.
-pub(super) fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>) {
-    let contacts = &work.contacts;
-    tasks::fill(&mut work.previous, contacts.len(), |c| (contacts[c].contact.key, contacts[c].impulse));
-    work.joints.remember();
 }

@@ -6,7 +6,7 @@ use super::joints::{RESOLVED, StepJoints};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
-use super::{StepError, Workspace, assemble, closing, correct, forces, guard, integrate};
+use super::{StepError, Workspace, assemble, closing, correct, forces, guard, integrate, recall};
 use crate::contacts::Contact;
 use crate::space::{Pose, Space};
 use crate::world::{OnBreach, OnFailure, World};
@@ -184,7 +184,8 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     let [taken, scheme] = integrate::advance(&mut world.bodies, &work.middle, velocities, &work.balance, (h, theta));
     work.ledger.dissipate(taken);
     created.scheme = scheme;
-    assemble::remember(work);
+    recall::remember(work);
+    work.swept = report.sweeps;
     world.time += h;
     world.schedule.place(&mut world.bodies, world.time);
     check_finite(world)?;

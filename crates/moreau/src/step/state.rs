@@ -15,6 +15,7 @@ pub(crate) struct WorkspaceState {
     impulses: Vec<f64>,
     joints: Vec<f64>,
     last: Vec<f64>,
+    swept: u64,
     failed: u64,
 }
 
@@ -26,12 +27,13 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Workspace<S, D, N> {
             impulses: self.previous.iter().flat_map(|(_, impulse)| *impulse).collect(),
             joints: self.joints.previous.as_flattened().to_vec(),
             last: self.last.as_flattened().to_vec(),
+            swept: self.swept,
             failed: self.failed.count,
         }
     }
 
     pub(crate) fn restore(&mut self, state: &WorkspaceState) -> Result<(), CheckpointError> {
-        let WorkspaceState { ledger, keys, impulses, joints, last, failed } = state;
+        let WorkspaceState { ledger, keys, impulses, joints, last, swept, failed } = state;
         let wrong = || CheckpointError::misfit("impulses are none that a run could have");
         let impulses = rows(impulses, keys.len()).ok_or_else(wrong)?;
         if !keys.is_sorted() {
@@ -40,7 +42,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Workspace<S, D, N> {
         self.previous = keys.iter().copied().zip(impulses).collect();
         self.joints.previous = rows(joints, joints.len() / D).ok_or_else(wrong)?;
         self.last = rows(last, last.len() / N).ok_or_else(wrong)?;
-        (self.ledger, self.failed.count) = (*ledger, *failed);
+        (self.ledger, self.swept, self.failed.count) = (*ledger, *swept, *failed);
         Ok(())
     }
 }

@@ -28,6 +28,9 @@ use one_motion::one_motion;
 /// Angle (rad) by which a contact has to turn in a step for its remainder to count: below, the gap is off by less than 1e-14 of the body's size.
 const ANGLE: f64 = 1e-7;
 
+/// Rounding of a gap, as a part of the sizes that it is computed from.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// What the remainder of a contact is computed from.
 pub(super) struct Turning<'a, S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) bodies: &'a Bodies<S, D, N>,
@@ -114,7 +117,14 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Turning<'_, S, D, N> {
         let frozen = sub(&self.point_velocity(pair[1], &contact.point, 0.0), &self.point_velocity(pair[0], &contact.point, 0.0));
         let normal = (next.gap - now.gap) / self.h - dot(&contact.normal, &frozen);
         let change = |i: usize| sub(&self.point_velocity(i, &end.point, 0.5 * self.h), &self.point_velocity(i, &now.point, 0.0));
-        let remainder = with_normal(sub(&change(pair[1]), &change(pair[0])), normal, &contact.normal);
+        let slip = sub(&change(pair[1]), &change(pair[0]));
+        // What is only rounding is none: contacts of one face would ask for velocities that no motion has, by so little that no solve ends it.
+        let far = pair.iter().flat_map(|&i| self.middle[i].position).fold(0.0_f64, |far, x| far.max(x.abs()));
+        let rounding = ROUNDING * (size + far) / self.h;
+        let whole = |x: f64| if x.abs() <= rounding { 0.0 } else { x };
+        let slip = axpy(&slip, -dot(&slip, &contact.normal), &contact.normal);
+        let slip = if norm(&slip) <= rounding { [0.0; D] } else { slip };
+        let remainder = with_normal(slip, whole(normal), &contact.normal);
         remainder.iter().all(|x| x.is_finite()).then_some(remainder)
     }
 

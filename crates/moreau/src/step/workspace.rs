@@ -12,6 +12,7 @@ use crate::detect::Detector;
 use crate::space::curve::Curve;
 use crate::space::{Pose, Space};
 use crate::world::World;
+use moreau_solve::operator::Lightest;
 use moreau_solve::{Cone, HistoryRow, NormalForm};
 
 /// One contact as the last step left it.
@@ -86,12 +87,17 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) free: Vec<[f64; N]>,
     pub(super) after: Vec<[f64; N]>,
     pub(super) middle: Vec<Pose<S::Rotation, D>>,
+    /// The greatest speeds of points of bodies, as far as they are known before the solve.
+    pub(super) speeds: Vec<f64>,
     pub(super) reach: Vec<f64>,
     pub(super) found: Vec<Contact<D>>,
     pub(super) spins: Spins,
     pub(super) remainders: Vec<[f64; D]>,
     /// Velocities at the beginning of the step before.
     pub(super) last: Vec<[f64; N]>,
+    /// How many sweeps the last solve had.
+    pub(super) swept: u64,
+    pub(super) lightest: Lightest<D, N>,
     pub(super) contacts: Vec<Localised<D>>,
     pub(super) previous: Vec<(ContactKey, [f64; D])>,
     pub(super) joints: StepJoints<D, N>,
@@ -112,11 +118,14 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             free: Vec::new(),
             after: Vec::new(),
             middle: Vec::new(),
+            speeds: Vec::new(),
             reach: Vec::new(),
             found: Vec::new(),
             spins: Spins::default(),
             remainders: Vec::new(),
             last: Vec::new(),
+            swept: 0,
+            lightest: Lightest::default(),
             contacts: Vec::new(),
             previous: Vec::new(),
             joints: StepJoints::default(),

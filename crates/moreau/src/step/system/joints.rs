@@ -5,10 +5,15 @@ use super::operators::Assembled;
 use crate::bodies::Bodies;
 use crate::space::{Pose, Space};
 use crate::step::joints::{Block, StepJoints};
-use moreau_solve::operator::NONE;
+use moreau_solve::operator::{Lightest, NONE};
 use moreau_solve::{Cone, MatrixFree, Operator, Problem, Residual};
 
 impl<S: Space<D, N>, const D: usize, const N: usize> System<MatrixFree<D, N>, S, D, N, D> {
+    /// Brings the impulses to start from nearer to the least that do the same; see [`MatrixFree::lighten`].
+    pub(in crate::step) fn lighten(&mut self, rest: &dyn Fn(usize) -> bool, part: f64, scratch: &mut Lightest<D, N>) {
+        self.operator.lighten((&self.cones, rest), part, &mut self.r, scratch);
+    }
+
     /// Adds the blocks to the contacts that fill the system.
     pub(in crate::step) fn join(&mut self, bodies: &Bodies<S, D, N>, blocks: &[Block<D, N>]) {
         for block in blocks {

@@ -100,7 +100,8 @@ fn turned<const D: usize>(contours: &[Contour<D>; 2], normal: [f64; D]) -> Optio
             }
         }
         let turn = solve(&bend, &slope)?;
-        if !(norm(&turn) < FAR) {
+        let angle = norm(&turn);
+        if angle.is_nan() || angle >= FAR {
             return None;
         }
         n = across_lines(contours, axpy(&n, 1.0, &turn))?;

@@ -1,0 +1,61 @@
+//! Stage 5: the impulses of the step before, and what becomes of them for the next.
+
+use super::{Localised, Workspace};
+use crate::contacts::ContactKey;
+use crate::shape::Shape;
+use crate::space::Space;
+use crate::world::{Start, World};
+use moreau_solve::block::norm;
+use moreau_solve::tasks;
+
+/// What of the way to the least impulses a start goes at once.
+const PART: f64 = 0.5;
+
+/// A contact that slides by less than this part of the smaller body in a step is at rest.
+const AT_REST: f64 = 1e-7;
+
+/// Gives contacts the impulses of the step before, as far as they had any. Both lists are sorted by key.
+pub(super) fn recall<const D: usize>(previous: &[(ContactKey, [f64; D])], contacts: &mut [Localised<D>]) {
+    tasks::parts(contacts, |_, contacts| {
+        let Some(first) = contacts.first() else { return };
+        let mut last = previous[previous.partition_point(|(before, _)| *before < first.contact.key)..].iter().peekable();
+        for contact in contacts {
+            let key = contact.contact.key;
+            while last.next_if(|(before, _)| *before < key).is_some() {}
+            if let Some((_, r)) = last.next_if(|(before, _)| *before == key) {
+                contact.impulse = *r;
+            }
+        }
+    });
+}
+
+/// Keeps the impulses of a step that was taken, for the next to start from.
+pub(super) fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>) {
+    let contacts = &work.contacts;
+    tasks::fill(&mut work.previous, contacts.len(), |c| (contacts[c].contact.key, contacts[c].impulse));
+    work.joints.remember();
+}
+
+/// Takes from the impulses of contacts at rest what no velocity tells, where the last solve had sweeps to add some (theory (87)).
+pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    h: f64,
+) {
+    if world.settings.start != Start::Warm || work.swept < 2 {
+        return;
+    }
+    let (contacts, blocks, bodies) = (&work.contacts, &work.joints.blocks, &world.bodies);
+    let size = |pair: [Option<usize>; 2]| {
+        let radius = |body: usize| bodies.shape[body].bounding_radius();
+        pair.into_iter().flatten().filter_map(radius).fold(f64::INFINITY, f64::min)
+    };
+    let rest = |c: usize| {
+        let (before, pair) = match contacts.get(c) {
+            Some(contact) => (&contact.before, [contact.contact.key.a, contact.contact.key.b].map(|body| Some(body as usize))),
+            None => (&blocks[c - contacts.len()].before, blocks[c - contacts.len()].bodies),
+        };
+        h * norm(before) <= AT_REST * size(pair)
+    };
+    work.systems.full.lighten(&rest, PART, &mut work.lightest);
+}
