@@ -88,23 +88,26 @@ fn states_are_the_committed_ones_on_any_number_of_threads_and_any_kernels() {
         ("paper/sedimentation.toml", &[][..], 500, "e0dadf5504ba2e52"),
         ("paper/sedimentation.toml", &[rough, "solver.start=\"warm\""][..], 500, "bfbfb464c05dd96c"),
         // Enough contacts for threads to share the sweeps.
-        ("box-of-balls.toml", &["generate.0.count=2200", "time.step=1e-3"][..], 500, "94b2b502a40a6a6a"),
+        ("box-of-balls.toml", &["generate.0.count=2200", "time.step=1e-3"][..], 500, "c45353d0cc13653a"),
         ("paper/sedimentation-2d.toml", &[][..], 500, "e2eef71739d26733"),
         // Polygons, boxes, a polyhedral dome; a sine drives one scene, joints hold another.
-        ("punch.toml", &[][..], 200, "966e5ada3eeea9cd"),
-        ("tower.toml", &[][..], 200, "466923cf6773b085"),
+        ("punch.toml", &[][..], 200, "19b52bbc0a66bb52"),
+        ("tower.toml", &[][..], 200, "99e6c310b6af779a"),
         ("dome.toml", &[][..], 40, "fc49660f75412eba"),
-        ("shaker.toml", &[][..], 300, "deb49c84354db045"),
-        ("slider-crank.toml", &[][..], 300, "cd42facbf66614f8"),
+        ("shaker.toml", &[][..], 300, "726b133c84730b04"),
+        ("slider-crank.toml", &[][..], 300, "920b113403161710"),
     ];
+    let mut others = Vec::new();
     for (file, sets, steps, committed) in scenes {
         let ways = [(1, "auto"), (2, "auto"), (3, "auto"), (8, "auto"), (2, "portable")];
         let found = ways.map(|(threads, kernels)| hash_of_run(file, sets, steps, threads, kernels));
         assert!(found.iter().all(|&hash| hash == found[0]), "{file}: {found:x?}");
-        if cfg!(target_arch = "x86_64") {
-            assert_eq!(format!("{:016x}", found[0]), committed, "{file} {sets:?}");
+        let hash = format!("{:016x}", found[0]);
+        if cfg!(target_arch = "x86_64") && hash != committed {
+            others.push((file, hash));
         }
     }
+    assert!(others.is_empty(), "not the committed ones: {others:?}");
 }
 
 /// The same world with its bodies in reverse order.

@@ -3,6 +3,7 @@
 use moreau::checkpoint::Checkpoint;
 use moreau::mesh::Mesh;
 use moreau::mesh::compas::Assembly;
+use moreau::observe::Summary;
 use moreau::scene::{AnyWorld, Scene};
 use moreau::shape::solid::Surface;
 use moreau::step::{Workspace, step};
@@ -47,9 +48,27 @@ fn scenes() {
     }
 }
 
+/// The first two seeds of checkpoints, of the layout that is current: after 20 and after 60 steps of a scene.
+fn write_checkpoints(text: &str) {
+    for (name, steps) in [("1.bin", 20), ("2.bin", 60)] {
+        let AnyWorld::Solid(mut world) = Scene::parse(text, "checkpoint.toml").unwrap().build(u64::MAX).unwrap() else {
+            panic!()
+        };
+        let mut work = Workspace::default();
+        (0..steps).for_each(|_| assert!(step(&mut world, &mut work).is_ok()));
+        let checkpoint = Checkpoint::take(text, (Summary::default(), Vec::new()), &world, &work);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/checkpoint").join(name);
+        std::fs::write(path, postcard::to_stdvec(&checkpoint).unwrap()).unwrap();
+    }
+}
+
+/// With MOREAU_BLESS=1 the seeds are written again, after the layout of checkpoints has changed.
 #[test]
 fn checkpoints() {
     let text = include_str!("../../../fuzz/seeds/scene/events.toml");
+    if std::env::var_os("MOREAU_BLESS").is_some() {
+        write_checkpoints(text);
+    }
     let mut taken = 0;
     for path in seeds("checkpoint") {
         let Ok(checkpoint) = postcard::from_bytes::<Checkpoint>(&bytes(&path)) else { continue };
