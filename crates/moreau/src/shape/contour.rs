@@ -6,7 +6,7 @@ use crate::space::{Pose, Space};
 pub(crate) const SAME: f64 = 1e-6;
 
 /// The surface of a body near a point of contact, as part of something simple. Points and directions are in the frame of the body, or in the
-/// world once it is [placed](Contour::placed); directions are unit vectors, lengths are in m.
+/// world once it is placed; directions are unit vectors, lengths are in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Contour<const D: usize> {
     /// A plane (in 2D a line).
