@@ -53,7 +53,7 @@ async function scrubs(page, last) {
 /** All charts are there, those of measures where the run has some; whether it has. */
 async function allCharts(page) {
     const measured = await page.evaluate(() => Boolean(window.moreau.page.run.meta.measures?.time?.length));
-    assert.equal(await page.locator(".plot").count(), measured ? 13 : 7);
+    assert.equal(await page.locator(".plot").count(), measured ? 14 : 8);
     return measured;
 }
 
