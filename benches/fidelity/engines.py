@@ -81,7 +81,8 @@ class Engines:
             said = " ".join(error.split()).replace("|", "/")[:300] or f"exit code {child.returncode}"
             print(f"moreau: {error}", file=sys.stderr)
             if len(rows) < steps:
-                return f"ends at {len(rows) * step:.3g} s: {said}"
+                reason = said.split(";")[0]
+                return f"ends at {len(rows) * step:.3g} s: {reason}"
         seconds = sum(float(row["seconds_step"]) for row in rows)
         return trajectory(out / "trajectory.h5", step), seconds, len(rows) * step, said
 
