@@ -1,7 +1,7 @@
 //! Of all impulses that do the same to the bodies, those with the least sum of squares (theory (87)).
 //!
-//! Four points of a face make W singular: impulses move along its null space and no velocity tells. What a solve starts from, and by which way it goes, then decides which of them it ends
-//! at. A warm start hands them on from step to step, so that what each solve adds in the null space adds up, until two corners carry a whole box and its slipping about them is legal.
+//! Four points of a face make W singular: impulses move along its null space and no velocity changes. The start of a solve and the way that it takes decide where
+//! it ends. A warm start hands them on from step to step, so that what each solve adds in the null space adds up, until two corners carry a whole box and its slipping about them is legal.
 //!
 //! ```text
 //! least ½ Σ ‖r_c‖²  with  Jᵀ r = y:      r = J z,   Jᵀ J z = y      (conjugate gradients over the bodies)

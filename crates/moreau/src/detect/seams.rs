@@ -22,7 +22,7 @@ use vector::{along, dot};
 /// One minus the cosine of the angle below which two normals are the same.
 const SAME: f64 = 1e-9;
 
-/// Of the size of the smaller piece: the height below which a step between two pieces is none, and by which a lifted body is clear.
+/// Height below which a step between two pieces is ignored, and clearance of a lifted body, as a part of the size of the smaller piece.
 const MARGIN: f64 = 2e-5;
 
 /// Number of patches above which only pieces of one body are compared: a body on which many others lie, such as the ground, is not what slides.
@@ -48,7 +48,7 @@ struct Patch<const D: usize> {
 }
 
 impl<const D: usize> Patch<D> {
-    /// Steps of the ground below this height are none, m.
+    /// Height below which a step of the ground is ignored, m.
     fn margin(&self) -> f64 {
         MARGIN * self.size
     }
