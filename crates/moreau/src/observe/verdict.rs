@@ -140,17 +140,22 @@ fn energy(summary: &Summary) -> Check {
             format!("{} J by {name} (most in step {}: {} J)", figures(*energy), worst.step, figures(worst.energy))
         })
         .collect();
-    let text = if parts.is_empty() {
-        "no energy was created beyond rounding".to_owned()
-    } else {
-        format!(
-            "{} J were created, {} of the energy turned over: {}; on balance {} J were gained, {} of the energy at hand",
+    let made = match parts.is_empty() {
+        true => "no energy was created beyond rounding".to_owned(),
+        false => format!(
+            "{} J were created, {} of the energy turned over: {}",
             figures(created),
             percent(share(created, turnover)),
             parts.join(", "),
+        ),
+    };
+    let text = match parts.is_empty() && gained {
+        true => made,
+        false => format!(
+            "{made}; on balance {} J were gained, {} of the energy at hand",
             figures(books.gained),
             percent(share(books.gained, scale)),
-        )
+        ),
     };
     let text = match (passed, gained) {
         (true, _) => text,
