@@ -35,6 +35,9 @@ fn allowed(settings: &Settings) -> bool {
         && !settings.symmetric
 }
 
+/// Below this multiple of the tolerance a criterion that sweeps do not measure is certified at each look.
+const NEAR: f64 = 10.0;
+
 /// One solve.
 struct Drive<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize, const C: usize> {
     work: &'a mut Work<'b, O, D>,
@@ -42,6 +45,8 @@ struct Drive<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const 
     packing: &'a mut Packing<K, B, C>,
     /// After how many sweeps the criterion is looked at whatever is expected.
     next_look: u64,
+    /// After how many the last certificate was made.
+    certified_at: u64,
     best: f64,
     gained_at: u64,
     patience: u64,
@@ -59,7 +64,7 @@ impl<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize
         work.scratch.claimed.clear();
         work.scratch.claimed.resize(work.r.len(), [0.0; D]);
         let (next_look, best) = (work.judge.sweeps + 1, f64::INFINITY);
-        Self { work, balls, packing, next_look, best, gained_at: 0, patience: FIRST_PATIENCE, plain: 0 }
+        Self { work, balls, packing, next_look, certified_at: 0, best, gained_at: 0, patience: FIRST_PATIENCE, plain: 0 }
     }
 
     fn run(mut self, accelerated: bool) -> Status {
@@ -107,8 +112,11 @@ impl<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize
         let mut error = if exact { seen } else { self.packing.scale * seen };
         let ends =
             error <= settings.tolerance || !error.is_finite() || sweeps >= self.work.judge.limit || self.work.judge.is_late();
-        if ends || settings.history || self.packing.scale == 0.0 {
+        // What the last certificate tells of another criterion is true to some factor, and less so the older it is.
+        let stale = !exact && (error <= NEAR * settings.tolerance || sweeps >= 2 * self.certified_at);
+        if ends || stale || settings.history || self.packing.scale == 0.0 {
             let Work { r, scratch, judge, .. } = &mut *self.work;
+            self.certified_at = sweeps;
             self.packing.read(self.balls, r, &mut scratch.claimed);
             if let Some(status) = judge.certify(&mut scratch.state, r, Some(&scratch.claimed)) {
                 if status != Status::Converged {
