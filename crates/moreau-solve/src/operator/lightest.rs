@@ -4,10 +4,11 @@
 //! it ends. A warm start hands them on from step to step, so that what each solve adds in the null space adds up, until two corners carry a whole box and its slipping about them is legal.
 //!
 //! ```text
-//! least ½ Σ ‖r_c‖²  with  Jᵀ r = y:      r = J z,   Jᵀ J z = y      (conjugate gradients over the bodies)
+//! least ½ Σ ‖r_c‖²/k_c  with  Jᵀ r = y:      r = k J z,   Jᵀ k J z = y      (conjugate gradients over the bodies, scaled by the diagonal)
 //! ```
 //!
-//! Elastic bodies with the same stiffness at each contact have this answer in the limit of rigid ones.
+//! Elastic bodies with the stiffness k_c at each contact have this answer in the limit of rigid ones. Contacts have the same, k = 1, and joints are much
+//! stiffer: what a joint can carry at no cost must not draw impulses from one corner of a face to another.
 
 use super::MatrixFree;
 use super::matrix_free::NONE;
@@ -16,23 +17,106 @@ use crate::block::{Vector, axpy};
 
 /// What is left of Jᵀ r = y, relative, that a start may miss.
 const ENOUGH: f64 = 1e-9;
+/// What of a body's balance may be left where its impulses are to be an equilibrium, from which a solve then starts.
+const BALANCED: f64 = 1e-7;
 /// More steps are not taken: the start stays as it is.
 const STEPS: usize = 200;
+/// How much stiffer a joint is than a contact.
+const STIFF: f64 = 1e4;
 /// How often contacts that cannot follow are left out.
 const ROUNDS: usize = 4;
 
 /// Scratch of [`MatrixFree::lighten`].
 #[derive(Clone, Debug, Default)]
 pub struct Lightest<const D: usize, const N: usize> {
-    takes_part: Vec<bool>,
+    /// k_c of each component; zero for what does not take part.
+    stiffness: Vec<[f64; D]>,
     target: Vec<Vector<D>>,
+    /// Bodies of which no equilibrium was found.
+    moves: Vec<bool>,
     z: Vec<[f64; N]>,
     left: Vec<[f64; N]>,
+    /// 1 over the diagonal of Jᵀ k J, and the scaled left.
+    inverse: Vec<[f64; N]>,
+    scaled: Vec<[f64; N]>,
     way: Vec<[f64; N]>,
     image: Vec<[f64; N]>,
 }
 
 impl<const D: usize, const N: usize> MatrixFree<D, N> {
+    /// Gives the contacts that `rest` the least impulses that hold their bodies, which then have this `state` (velocities of the operator), where
+    /// all contacts of bodies that touch do rest and all those impulses are within their cones: an answer of the law with which nothing slips. Other contacts keep
+    /// theirs.
+    pub fn balance(
+        &self,
+        (cones, rest): (&[Cone], &dyn Fn(usize) -> bool),
+        state: &[[f64; N]],
+        r: &mut [Vector<D>],
+        scratch: &mut Lightest<D, N>,
+    ) {
+        scratch.stiffen(cones, rest);
+        scratch.moves.clear();
+        scratch.moves.resize(self.bodies(), false);
+        self.spread_moves(&|c, stiffness| !takes_part(&stiffness[c]), scratch);
+        let moves = scratch.moves.iter();
+        scratch.left.clear();
+        scratch.left.extend(state.iter().zip(moves).map(|(y, &moves)| if moves { [0.0; N] } else { *y }));
+        for c in 0..r.len() {
+            if self.is_marked(c, &scratch.moves) {
+                scratch.stiffness[c] = [0.0; D];
+            }
+        }
+        let size = |y: &[f64; N]| y.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let most = scratch.left.iter().map(size).fold(0.0, f64::max);
+        // Where it does not end for all, it may have ended for some.
+        self.least(r.len(), scratch);
+        let Lightest { left, moves, inverse, .. } = &mut *scratch;
+        for (moves, (left, inverse)) in moves.iter_mut().zip(left.iter().zip(inverse.iter())) {
+            let touched = inverse.iter().any(|&x| x > 0.0);
+            *moves |= touched && !(size(left) <= BALANCED * most);
+        }
+        let outside = |c: usize, target: &Vector<D>| match cones[c] {
+            Cone::Bilateral { .. } => false,
+            cone => !(cone.distance(target) <= 0.0),
+        };
+        for c in 0..r.len() {
+            if takes_part(&scratch.stiffness[c]) && outside(c, &scratch.target[c]) {
+                self.mark(c, &mut scratch.moves);
+            }
+        }
+        self.spread_moves(&|_, _| false, scratch);
+        for c in 0..r.len() {
+            if takes_part(&scratch.stiffness[c]) && !self.is_marked(c, &scratch.moves) {
+                r[c] = scratch.target[c];
+            }
+        }
+    }
+
+    /// Marks the bodies of contacts that are `bad`, and all that touch a marked one.
+    fn spread_moves(&self, bad: &dyn Fn(usize, &[[f64; D]]) -> bool, scratch: &mut Lightest<D, N>) {
+        let Lightest { stiffness, moves, .. } = scratch;
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for c in 0..stiffness.len() {
+                let bodies = self.pair(c).into_iter().filter(|&body| body != NONE);
+                let marked = bodies.clone().filter(|&body| moves[body as usize]).count();
+                if (marked > 0 || bad(c, stiffness)) && marked < bodies.count() {
+                    self.mark(c, moves);
+                    changed = true;
+                }
+            }
+        }
+    }
+
+    fn mark(&self, c: usize, moves: &mut [bool]) {
+        self.pair(c).into_iter().filter(|&body| body != NONE).for_each(|body| moves[body as usize] = true);
+    }
+
+    fn is_marked(&self, c: usize, moves: &[bool]) -> bool {
+        self.pair(c).into_iter().any(|body| body != NONE && moves[body as usize])
+    }
+
     /// Brings the impulses of the contacts that `rest` a `part` of the way to the least ones that do the same to the bodies. Impulses stay in their cones; contacts whose least impulse is
     /// outside keep theirs. Nothing changes where that cannot be found.
     pub fn lighten(
@@ -42,21 +126,24 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         r: &mut [Vector<D>],
         scratch: &mut Lightest<D, N>,
     ) {
-        scratch.takes_part.clear();
-        scratch.takes_part.extend((0..r.len()).map(rest));
+        scratch.stiffen(cones, rest);
         for _ in 0..ROUNDS {
-            if !self.least(r, scratch) {
+            scratch.left.clear();
+            scratch.left.resize(self.bodies(), [0.0; N]);
+            self.gather(&scratch.stiffness, r, &mut scratch.left);
+            if !self.least(r.len(), scratch) {
                 return;
             }
-            let Lightest { takes_part, target, .. } = scratch;
+            let Lightest { stiffness, target, .. } = scratch;
             let mut fits = true;
             for c in 0..r.len() {
-                if takes_part[c] && cones[c].distance(&target[c]) > 0.0 && !matches!(cones[c], Cone::Bilateral { .. }) {
-                    (takes_part[c], fits) = (false, false);
+                if takes_part(&stiffness[c]) && cones[c].distance(&target[c]) > 0.0 && !matches!(cones[c], Cone::Bilateral { .. })
+                {
+                    (stiffness[c], fits) = ([0.0; D], false);
                 }
             }
             if fits {
-                for c in (0..r.len()).filter(|&c| takes_part[c]) {
+                for c in (0..r.len()).filter(|&c| takes_part(&stiffness[c])) {
                     r[c] = std::array::from_fn(|i| r[c][i] + part * (target[c][i] - r[c][i]));
                 }
                 return;
@@ -64,45 +151,46 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         }
     }
 
-    /// Finds the least impulses of the contacts that take part; false where conjugate gradients do not end.
-    fn least(&self, r: &[Vector<D>], scratch: &mut Lightest<D, N>) -> bool {
-        let Lightest { takes_part, target, z, left, way, image } = scratch;
-        let zero = [0.0; N];
-        for list in [&mut *z, &mut *left, &mut *image] {
+    /// Finds the least of `contacts` impulses that do to the bodies what is left; false where conjugate gradients do not end.
+    fn least(&self, contacts: usize, scratch: &mut Lightest<D, N>) -> bool {
+        let Lightest { stiffness, target, z, left, inverse, scaled, way, image, moves: _ } = scratch;
+        for list in [&mut *z, &mut *image, &mut *inverse, &mut *scaled] {
             list.clear();
-            list.resize(self.bodies(), zero);
+            list.resize(self.bodies(), [0.0; N]);
         }
         target.clear();
-        target.resize(r.len(), [0.0; D]);
-        self.gather(takes_part, r, left);
-        way.clone_from(left);
-        let whole = square(left);
+        target.resize(contacts, [0.0; D]);
+        self.diagonal(stiffness, inverse);
+        scale(left, inverse, scaled);
+        way.clone_from(scaled);
+        let whole = product(left, scaled);
         let mut rest = whole;
         for _ in 0..STEPS {
             if rest <= ENOUGH * ENOUGH * whole {
                 break;
             }
-            self.spread(takes_part, way, target);
-            image.fill(zero);
-            self.gather(takes_part, target, image);
+            self.spread(stiffness, way, target);
+            image.fill([0.0; N]);
+            self.gather(stiffness, target, image);
             let step = rest / product(way, image);
             if !step.is_finite() {
-                return false;
+                break;
             }
             add(z, step, way);
             add(left, -step, image);
-            let next = square(left);
+            scale(left, inverse, scaled);
+            let next = product(left, scaled);
             let share = next / rest;
             rest = next;
-            way.iter_mut().zip(left.iter()).for_each(|(way, left)| *way = axpy(left, share, way));
+            way.iter_mut().zip(scaled.iter()).for_each(|(way, scaled)| *way = axpy(scaled, share, way));
         }
-        self.spread(takes_part, z, target);
+        self.spread(stiffness, z, target);
         rest <= ENOUGH * ENOUGH * whole && target.as_flattened().iter().all(|x| x.is_finite())
     }
 
     /// y ← y + Jᵀ r over the contacts that take part.
-    fn gather(&self, takes_part: &[bool], r: &[Vector<D>], y: &mut [[f64; N]]) {
-        for c in (0..r.len()).filter(|&c| takes_part[c]) {
+    fn gather(&self, stiffness: &[[f64; D]], r: &[Vector<D>], y: &mut [[f64; N]]) {
+        for c in (0..r.len()).filter(|&c| takes_part(&stiffness[c])) {
             for (rows, body) in self.rows(c).iter().zip(self.pair(c)).filter(|(_, body)| *body != NONE) {
                 let y = &mut y[body as usize];
                 (0..D).for_each(|i| *y = axpy(y, r[c][i], &rows[i]));
@@ -110,23 +198,51 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         }
     }
 
-    /// r = J z at the contacts that take part.
-    fn spread(&self, takes_part: &[bool], z: &[[f64; N]], r: &mut [Vector<D>]) {
-        for c in (0..r.len()).filter(|&c| takes_part[c]) {
+    /// r = k J z at the contacts that take part.
+    fn spread(&self, stiffness: &[[f64; D]], z: &[[f64; N]], r: &mut [Vector<D>]) {
+        for c in (0..r.len()).filter(|&c| takes_part(&stiffness[c])) {
             r[c] = [0.0; D];
             for (rows, body) in self.rows(c).iter().zip(self.pair(c)).filter(|(_, body)| *body != NONE) {
-                (0..D).for_each(|i| r[c][i] += crate::block::dot(&rows[i], &z[body as usize]));
+                (0..D).for_each(|i| r[c][i] += stiffness[c][i] * crate::block::dot(&rows[i], &z[body as usize]));
             }
         }
     }
+
+    /// 1 over the diagonal of Jᵀ k J, zero where that is.
+    fn diagonal(&self, stiffness: &[[f64; D]], inverse: &mut [[f64; N]]) {
+        for (c, k) in stiffness.iter().enumerate().filter(|(_, k)| takes_part(k)) {
+            for (rows, body) in self.rows(c).iter().zip(self.pair(c)).filter(|(_, body)| *body != NONE) {
+                let sum = &mut inverse[body as usize];
+                rows.iter().zip(k).for_each(|(row, k)| *sum = std::array::from_fn(|j| sum[j] + k * row[j] * row[j]));
+            }
+        }
+        inverse.as_flattened_mut().iter_mut().filter(|x| **x > 0.0).for_each(|x| *x = 1.0 / *x);
+    }
+}
+
+impl<const D: usize, const N: usize> Lightest<D, N> {
+    /// k_c of the contacts that rest.
+    fn stiffen(&mut self, cones: &[Cone], rest: &dyn Fn(usize) -> bool) {
+        let stiff = |c: usize| if matches!(cones[c], Cone::Bilateral { .. }) { STIFF } else { 1.0 };
+        let stiffness = |c: usize| std::array::from_fn(|i| if rest(c) && cones[c].binds(i) { stiff(c) } else { 0.0 });
+        self.stiffness.clear();
+        self.stiffness.extend((0..cones.len()).map(stiffness));
+    }
+}
+
+/// True if impulses of a contact of this stiffness may change.
+fn takes_part<const D: usize>(stiffness: &[f64; D]) -> bool {
+    stiffness.iter().any(|&k| k > 0.0)
+}
+
+/// out = a times b, number by number.
+fn scale<const N: usize>(a: &[[f64; N]], b: &[[f64; N]], out: &mut [[f64; N]]) {
+    let factors = a.as_flattened().iter().zip(b.as_flattened());
+    out.as_flattened_mut().iter_mut().zip(factors).for_each(|(out, (a, b))| *out = a * b);
 }
 
 fn product<const N: usize>(a: &[[f64; N]], b: &[[f64; N]]) -> f64 {
     a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
-}
-
-fn square<const N: usize>(a: &[[f64; N]]) -> f64 {
-    product(a, a)
 }
 
 /// a ← a + s b.

@@ -4,7 +4,7 @@ use super::{Localised, Workspace};
 use crate::contacts::ContactKey;
 use crate::shape::Shape;
 use crate::space::Space;
-use crate::world::{Start, World};
+use crate::world::{Rows, Start, World};
 use moreau_solve::block::norm;
 use moreau_solve::tasks;
 
@@ -36,13 +36,20 @@ pub(super) fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mu
     work.joints.remember();
 }
 
-/// Takes from the impulses of contacts at rest what no velocity tells, where the last solve had sweeps to add some (theory (87)).
+/// After how many steps an equilibrium is looked for again, beside those that are powers of two. One that was found is kept by starting from it.
+const EVERY: u64 = 64;
+
+/// Among so few contacts it is looked for in each step that may need it.
+const FEW: usize = 128;
+
+/// Begins with an equilibrium where one is found; else takes from the impulses of contacts at rest what no velocity tells, where the last solve had sweeps to add some (theory (87)).
 pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
     world: &World<S, D, N>,
     work: &mut Workspace<S, D, N>,
     h: f64,
 ) {
-    if world.settings.start != Start::Warm || work.swept < 2 {
+    let warm = world.settings.start == Start::Warm;
+    if world.settings.rows == Rows::Frozen || (warm && work.swept < 2 && world.steps > 0) {
         return;
     }
     let (contacts, blocks, bodies) = (&work.contacts, &work.joints.blocks, &world.bodies);
@@ -57,5 +64,17 @@ pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
         };
         h * norm(before) <= AT_REST * size(pair)
     };
-    work.systems.full.lighten(&rest, PART, &mut work.lightest);
+    let few = contacts.len() + blocks.len() <= FEW;
+    if !warm || few || world.steps.is_multiple_of(EVERY) || world.steps.is_power_of_two() {
+        let root = &bodies.root_inverse_mass;
+        let held = |i: usize, k: usize| {
+            let root = root[i][k];
+            if root > 0.0 { (bodies.velocity[i][k] - work.free[i][k]) / root } else { 0.0 }
+        };
+        tasks::fill(&mut work.held, bodies.len(), |i| std::array::from_fn(|k| held(i, k)));
+        work.systems.full.balance(&rest, &work.held, &mut work.lightest);
+    }
+    if warm {
+        work.systems.full.lighten(&rest, PART, &mut work.lightest);
+    }
 }

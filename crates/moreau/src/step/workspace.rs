@@ -97,6 +97,8 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) last: Vec<[f64; N]>,
     /// How many sweeps the last solve had.
     pub(super) swept: u64,
+    /// Scratch: what contacts at rest have to give the bodies, M^½ (v − v_free).
+    pub(super) held: Vec<[f64; N]>,
     pub(super) lightest: Lightest<D, N>,
     pub(super) contacts: Vec<Localised<D>>,
     pub(super) previous: Vec<(ContactKey, [f64; D])>,
@@ -126,6 +128,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             last: Vec::new(),
             swept: 0,
             lightest: Lightest::default(),
+            held: Vec::new(),
             contacts: Vec::new(),
             previous: Vec::new(),
             joints: StepJoints::default(),

@@ -14,6 +14,11 @@ impl<S: Space<D, N>, const D: usize, const N: usize> System<MatrixFree<D, N>, S,
         self.operator.lighten((&self.cones, rest), part, &mut self.r, scratch);
     }
 
+    /// Gives contacts at rest the least impulses that hold their bodies, where these are within the cones; see [`MatrixFree::balance`].
+    pub(in crate::step) fn balance(&mut self, rest: &dyn Fn(usize) -> bool, state: &[[f64; N]], scratch: &mut Lightest<D, N>) {
+        self.operator.balance((&self.cones, rest), state, &mut self.r, scratch);
+    }
+
     /// Adds the blocks to the contacts that fill the system.
     pub(in crate::step) fn join(&mut self, bodies: &Bodies<S, D, N>, blocks: &[Block<D, N>]) {
         for block in blocks {
