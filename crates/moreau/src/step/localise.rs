@@ -78,7 +78,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         if TURNS && let Some(half) = self.half_change(contact, &frame, [a, b], &before) {
             (1..D).for_each(|i| remainder[i] = -half[i]);
         }
-        let remainder = lasting(remainder, before[0]);
+        let remainder = lasting(remainder, before[0], contact.gap / self.h);
         let closed_below = closed_below(bodies, [a, b]);
         let approach = Approach { gap: contact.gap, closed_below, before, remainder, step: self.h };
         let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach);
@@ -135,13 +135,17 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
     }
 }
 
-/// What of a remainder counts where the gap has the rate `before`, m/s, at the predicted configuration: all in contact that lasts, whose rate at the
-/// beginning is next to nothing; at an impact, which changes the velocity that the remainder was taken from, the part that cannot make energy
-/// of first order (theory (84)).
+/// What of a remainder counts where the gap has the rate `before`, m/s, at the predicted configuration, and closes in this step at the rate `closing`: all in contact that
+/// lasts, whose rate at the beginning is next to nothing; at an impact, which changes the velocity that the remainder was taken from, the part
+/// that cannot make energy of first order (theory (84)). A gap that is wider than a contact that lasts has is not taken to open by itself: what
+/// meets there may be going to turn otherwise.
 #[inline]
-fn lasting<const D: usize>(remainder: [f64; D], before: f64) -> [f64; D] {
+fn lasting<const D: usize>(remainder: [f64; D], before: f64, closing: f64) -> [f64; D] {
     if remainder == [0.0; D] {
         return remainder;
+    }
+    if remainder[0] > 0.0 && closing > 2.0 * remainder[0] {
+        return [0.0; D];
     }
     let (size, rate) = (norm(&remainder), (before - remainder[0]).abs());
     if rate <= size { remainder } else { remainder.map(|x| x * (size / rate)) }
