@@ -6,12 +6,14 @@
 //!
 //!   min ½ δ·M δ   with   gap + H_n* δ ≥ −½ ε R   at every contact,
 //!
-//! which is the problem of a step without friction with gaps for velocities; theory (67). Velocities stay as they are, so no kinetic energy
+//! which is the problem of a step without friction with gaps for velocities; theory (67). Gaps are those of the next prediction q⁺ + h (1 − θ) v⁺, where the next
+//! contacts are sought: the bodies at the end of a step are between two predictions, and overlap no deeper. Velocities stay as they are, so no kinetic energy
 //! is made; the height that weights gain is booked as energy created.
 
 mod doubt;
 mod held;
 
+use super::integrate::predict;
 use super::localise::{margins, speed};
 use super::record::energies;
 use super::system::Kind;
@@ -22,7 +24,8 @@ use crate::shape::Shape;
 use crate::space::Space;
 use crate::world::World;
 use held::{Held, shift};
-use moreau_solve::{Criterion, Settings, Status};
+use moreau_solve::{Criterion, Settings, Status, tasks};
+use std::ops::Range;
 use std::time::Instant;
 
 /// How often the problem, which is linear in δ, is posed anew in one step: of a thousand stones that land half of what is left remains each time.
@@ -53,21 +56,63 @@ impl<const D: usize, const N: usize> Default for Correction<D, N> {
     }
 }
 
-/// Puts the positions right at the end of a step, if that is asked for and some overlap may be too deep there; gives the seconds that contacts
-/// were looked for.
-pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
+/// Puts the positions right at the end of a step, if that is asked for and some overlap may be too deep there or at the next prediction; gives the
+/// seconds that contacts were looked for.
+pub(super) fn at_end<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
 ) -> f64 {
     let Some(part) = world.settings.max_penetration else { return 0.0 };
-    let clock = Instant::now();
-    let doubt = doubt::may_be_too_deep(world, work, part);
-    let mut seconds = clock.elapsed().as_secs_f64();
-    if !doubt {
-        return seconds;
+    let h = world.settings.h;
+    let mut seconds = 0.0;
+    // Where they are, and where they will be: a body that turns may dip in between two predictions.
+    for ahead in [0.0, h] {
+        let clock = Instant::now();
+        look_ahead(world, work, ahead);
+        let doubt = doubt::may_be_too_deep(world, work, part, ahead);
+        seconds += clock.elapsed().as_secs_f64();
+        if doubt {
+            seconds += positions(world, work, part, ahead);
+        }
     }
+    seconds
+}
+
+/// Puts the positions right where contacts were found at the beginning of a step that are too deep: those of the scene as it was given, of bodies that
+/// an event brought, of a drive that jumped. True if bodies were moved; contacts are then to be found anew.
+pub(super) fn at_start<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    h: f64,
+) -> bool {
+    let Some(part) = world.settings.max_penetration else { return false };
+    let too_deep = |range: Range<usize>| work.found[range].iter().any(|c| is_too_deep(&world.bodies, c, part));
+    let too_deep = tasks::fold(0..work.found.len(), &too_deep, &|a, b| a || b);
+    if too_deep {
+        positions(world, work, part, h);
+    }
+    too_deep
+}
+
+/// Whether an overlap is deeper than is allowed; by rounding is not.
+fn is_too_deep<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    contact: &Contact<D>,
+    part: f64,
+) -> bool {
+    contact.gap < 0.0 && -contact.gap > (1.0 + 1e-9) * allowed(bodies, pair_of(contact), part)
+}
+
+/// Moves the bodies until no overlap is too deep where a step of length `ahead` predicts them; gives the seconds that contacts were looked for.
+fn positions<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    part: f64,
+    ahead: f64,
+) -> f64 {
+    let mut seconds = 0.0;
+    let since = world.settings.h;
     let (_, before) = energies(&world.bodies, &world.gravity);
-    let since = world.settings.h * world.settings.theta;
     work.correction.displacement.clear();
     work.correction.displacement.extend(world.bodies.velocity.iter().map(|v| v.map(|x| since * x)));
     work.correction.held.begin(world);
@@ -76,7 +121,7 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
         detect(world, work, part);
         seconds += clock.elapsed().as_secs_f64();
         let found = &work.correction.found;
-        if !found.iter().any(|c| -c.gap > allowed(&world.bodies, pair_of(c), part)) {
+        if !found.iter().any(|c| is_too_deep(&world.bodies, c, part)) {
             break;
         }
         let kind = match round {
@@ -88,10 +133,16 @@ pub(super) fn positions<S: Space<D, N>, const D: usize, const N: usize>(
         if !displace(world, work, part, kind) {
             break;
         }
+        look_ahead(world, work, ahead);
     }
     let (_, after) = energies(&world.bodies, &world.gravity);
     work.ledger.dissipate(before - after);
     seconds
+}
+
+/// Places the bodies where a step of length `h` looks for contacts.
+fn look_ahead<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, work: &mut Workspace<S, D, N>, h: f64) {
+    predict(&world.bodies, h, world.settings.theta, &mut work.middle);
 }
 
 /// No point of body `i` goes farther than this in the time in which it is displaced so (m and rad; or a velocity, then in a second).
@@ -110,7 +161,7 @@ fn allowed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D,
     part * radius(a).min(radius(b))
 }
 
-/// The contacts of the bodies where they are, with those that a displacement may close: one about as long as how far they came last, which is
+/// The contacts of the bodies where they will be, with those that a displacement may close: one about as long as how far they came last, which is
 /// how deep overlaps are.
 fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, work: &mut Workspace<S, D, N>, part: f64) {
     let (bodies, correction) = (&world.bodies, &mut work.correction);
@@ -118,7 +169,7 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
     correction.reach.clear();
     correction.reach.extend((0..bodies.len()).map(reach));
     let driven = |i: usize| !bodies.is_free(i);
-    work.detector.detect::<S, N>(&bodies.shape, &bodies.pose, &correction.reach, driven, &mut correction.found);
+    work.detector.detect::<S, N>(&bodies.shape, &work.middle, &correction.reach, driven, &mut correction.found);
     work.joints.part(&world.joints, &mut correction.found);
 }
 
@@ -139,7 +190,7 @@ fn displace<S: Space<D, N>, const D: usize, const N: usize>(
         room[0] = contact.gap + 0.5 * allowed(bodies, pair_of(contact), part);
         Localised::new(*contact, S::frame(contact.normal), None, [[0.0; D], room, [0.0; D]])
     }));
-    work.systems.get(kind).fill(bodies, &bodies.pose, &correction.contacts, &mut work.curve);
+    work.systems.get(kind).fill(bodies, &work.middle, &correction.contacts, &mut work.curve);
     if kind == Kind::Full {
         work.systems.full.join(bodies, &correction.held.blocks);
     }
@@ -148,7 +199,7 @@ fn displace<S: Space<D, N>, const D: usize, const N: usize>(
     let status = system.solve(&settings).status;
     correction.displacement.clear();
     correction.displacement.resize(bodies.len(), [0.0; N]);
-    system.deposit(bodies, &bodies.pose, &mut correction.displacement);
+    system.deposit(bodies, &work.middle, &mut correction.displacement);
     shift(bodies, &correction.displacement);
     if kind == Kind::Full {
         correction.held.restore(world, &mut work.joints.elimination);

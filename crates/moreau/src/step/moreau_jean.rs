@@ -6,7 +6,7 @@ use super::joints::{RESOLVED, StepJoints};
 use super::record::{StepRecord, energies};
 use super::system::Kind;
 use super::workspace::Before;
-use super::{StepError, Workspace, assemble, closing, correct, forces, guard, integrate, recall};
+use super::{Breach, StepError, Workspace, assemble, closing, correct, forces, guard, integrate, recall};
 use crate::contacts::Contact;
 use crate::space::{Pose, Space};
 use crate::world::{OnBreach, OnFailure, World};
@@ -64,14 +64,17 @@ fn correct<S: Space<D, N>, const D: usize, const N: usize>(
         return Ok(());
     }
     let dissipated = work.ledger.dissipated();
-    record.seconds.detect += correct::positions(world, work);
-    record.created.correction = larger(0.0, dissipated - work.ledger.dissipated());
+    record.seconds.detect += correct::at_end(world, work);
+    record.created.correction += larger(0.0, dissipated - work.ledger.dissipated());
     check_finite(world)?;
     close(world, work, record)?;
     match guard::energy(&world.guard, record.created.total()) {
         Some(breach) if world.guard.policy != OnBreach::Warn => Err(StepError::Breach { time: world.time, breach }),
         Some(breach) => {
-            record.breach.get_or_insert(breach);
+            // A breach by energy is of all that the step created.
+            if record.breach.as_ref().is_none_or(|before| matches!(before, Breach::Energy { .. })) {
+                record.breach = Some(breach);
+            }
             Ok(())
         }
         None => Ok(()),
@@ -143,6 +146,11 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     // 4 contacts at q_m, sorted by key
     let clock = Instant::now();
     assemble::detect(world, work, h);
+    let dissipated = work.ledger.dissipated();
+    if correct::at_start(world, work, h) {
+        assemble::detect(world, work, h);
+    }
+    let corrected = larger(0.0, dissipated - work.ledger.dissipated());
     record.seconds.detect += clock.elapsed().as_secs_f64();
     // 5-8 last impulses, laws, H, W_ii, q
     let clock = Instant::now();
@@ -183,7 +191,7 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     // 11 q⁺ = q_m + h θ v⁺
     let [taken, scheme] = integrate::advance(&mut world.bodies, &work.middle, velocities, &work.balance, (h, theta));
     work.ledger.dissipate(taken);
-    created.scheme = scheme;
+    (created.scheme, created.correction) = (scheme, corrected);
     recall::remember(work);
     work.swept = report.sweeps;
     world.time += h;
