@@ -45,10 +45,10 @@ pub const LAWS: &[Row] = &[
     serde(rename_all = "snake_case")
 )]
 pub enum Acts {
-    /// When its predicted gap is closed (eqs. 4-5).
-    #[default]
+    /// When its predicted gap is closed (eqs. 4-5), as in the paper.
     Closed,
     /// Also before: u_n + max(0, gap)/h ≥ 0, so that the gap at the next predicted configuration closes and is not overshot.
+    #[default]
     Approach,
 }
 

@@ -13,9 +13,9 @@ use crate::{GlobalMethod, Kernels, LocalMethod, Order, Row};
 )]
 pub enum Criterion {
     /// The paper's ε_glob (eq. 42), with the distance of the impulses from their cones.
-    #[default]
     EpsGlob,
     /// The scaled residual, which does not depend on units; see [`crate::residual`].
+    #[default]
     Scaled,
     /// The residual that Siconos reports, which does.
     Siconos,
@@ -123,8 +123,8 @@ impl Default for Settings {
         Self {
             global: GlobalMethod::Accelerated,
             local: LocalMethod::Pdas,
-            criterion: Criterion::EpsGlob,
-            tolerance: 1e-7,
+            criterion: Criterion::Scaled,
+            tolerance: 1e-4,
             max_sweeps: 100_000,
             max_seconds: None,
             relaxation: 1.0,

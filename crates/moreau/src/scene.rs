@@ -55,8 +55,8 @@ pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Ra
 pub use joints::{JointKindSpec, JointSpec};
 pub use shape::{PartSpec, ShapeSpec};
 pub use spec::{
-    BodySpec, CheckpointSpec, Container, Face, GuardSpec, Import, Material, MotionKind, Output, OutputKind, PairLaw, Solver,
-    StartSpec, Time,
+    BodySpec, CheckpointSpec, Container, Face, GuardSpec, Import, Material, MaxPenetration, MotionKind, Never, Output,
+    OutputKind, PairLaw, Solver, StartSpec, Time,
 };
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 

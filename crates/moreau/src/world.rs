@@ -12,9 +12,9 @@ use moreau_solve::Settings;
 #[serde(rename_all = "snake_case")]
 pub enum Start {
     /// From zero, as in the paper (section 3.2).
-    #[default]
     Cold,
     /// From those of the step before, contact by contact.
+    #[default]
     Warm,
 }
 

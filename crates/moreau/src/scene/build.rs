@@ -46,7 +46,7 @@ pub(super) fn build<S: SceneSpace<D, N>, const D: usize, const N: usize>(scene: 
         h: scene.time.step,
         theta: scene.time.theta,
         rows: scene.time.rows,
-        max_penetration: solver.max_penetration,
+        max_penetration: solver.max_penetration.part(),
         start: solver.start,
         on_failure: solver.on_failure,
         solver: solver.settings(),

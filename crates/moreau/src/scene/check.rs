@@ -26,10 +26,10 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
         let given = if e.setting == "max_sweeps" { scene.solver.max_sweeps.to_string() } else { e.value.to_string() };
         Fault::new(key_path!["solver", e.setting], format!("{} is {given}", e.setting), format!("expected {}", e.range))
     })?;
-    if let Some(part) = scene.solver.max_penetration
+    if let Some(part) = scene.solver.max_penetration.part()
         && !(part > 1e-9 && part <= 0.1)
     {
-        let hint = "expected a part of the smaller radius, above 1e-9 and up to 0.1";
+        let hint = "expected a part of the smaller radius, above 1e-9 and up to 0.1, or \"never\"";
         return Err(Fault::new(key_path!["solver", "max_penetration"], format!("max_penetration is {part}"), hint));
     }
     materials_and_laws(scene)?;

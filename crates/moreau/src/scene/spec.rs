@@ -54,10 +54,9 @@ pub struct Solver {
     pub order: Order,
     /// Whether contacts of round bodies are visited several at a time.
     pub kernels: Kernels,
-    /// How deep two bodies may overlap, as a part of the smaller one's bounding radius: where they are deeper at the end of a step, bodies are
-    /// moved apart, without a change of velocities. Default: never.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_penetration: Option<f64>,
+    /// How deep two bodies may overlap, as a part of the smaller one's bounding radius, or "never": where they would be deeper in the next step,
+    /// bodies are moved apart, without a change of velocities.
+    pub max_penetration: MaxPenetration,
     /// What to do when a solve reaches its limit of sweeps.
     pub on_failure: OnFailure,
     /// ρ of sbp, sal, ebp and eal: "auto", { relative = factor } or { absolute = kg }.
@@ -84,7 +83,7 @@ impl Default for Solver {
             start,
             order,
             kernels,
-            max_penetration: None,
+            max_penetration: MaxPenetration::default(),
             on_failure,
             rho,
             gamma,
@@ -113,6 +112,40 @@ impl Solver {
             symmetric,
             max_seconds: None,
             history: false,
+        }
+    }
+}
+
+/// From which overlap on positions are corrected.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a number or \"never\"")]
+pub enum MaxPenetration {
+    /// A part of the smaller body's bounding radius.
+    Part(f64),
+    /// Not at all.
+    Word(Never),
+}
+
+/// The word for it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Never {
+    /// Overlaps stay.
+    Never,
+}
+
+impl Default for MaxPenetration {
+    fn default() -> Self {
+        MaxPenetration::Part(1e-3)
+    }
+}
+
+impl MaxPenetration {
+    /// The part, or `None` for no correction.
+    pub fn part(self) -> Option<f64> {
+        match self {
+            MaxPenetration::Part(part) => Some(part),
+            MaxPenetration::Word(Never::Never) => None,
         }
     }
 }

@@ -163,8 +163,8 @@ fn unrest<S: Space<D, N>, const D: usize, const N: usize>(mut world: World<S, D,
     kinetic / (volume(&world) * 1000.0 * 9.81 * 1e-3)
 }
 
-/// A free fall of 200 steps would give 200 of this measure. A solver of tolerance 1e-8 leaves velocities of some 1e-8 of those of one step's
-/// fall, g h = 1e-2 m/s, whose squares are 1e-20.
+/// A free fall of 200 steps would give 200 of this measure. A solver of tolerance 1e-6 leaves velocities of some 1e-6 of those of one step's
+/// fall, g h = 1e-2 m/s, whose squares are 1e-16.
 #[test]
 fn what_should_stand_stands() {
     for kind in [
