@@ -73,11 +73,11 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         let Lightest { left, moves, inverse, .. } = &mut *scratch;
         for (moves, (left, inverse)) in moves.iter_mut().zip(left.iter().zip(inverse.iter())) {
             let touched = inverse.iter().any(|&x| x > 0.0);
-            *moves |= touched && !(size(left) <= BALANCED * most);
+            *moves |= touched && !left.iter().all(|x| x.abs() <= BALANCED * most);
         }
         let outside = |c: usize, target: &Vector<D>| match cones[c] {
             Cone::Bilateral { .. } => false,
-            cone => !(cone.distance(target) <= 0.0),
+            cone => !target.iter().all(|x| x.is_finite()) || cone.distance(target) > 0.0,
         };
         for c in 0..r.len() {
             if takes_part(&scratch.stiffness[c]) && outside(c, &scratch.target[c]) {

@@ -77,7 +77,7 @@ fn steps_that_are_too_long_for_a_heavy_end_say_so() {
         match swing(&mut solid(&chain(ratio, "\"warn\"", &ball))) {
             Ok((failed, open, _)) => assert!(failed > 0 && open < 1e-6, "ratio {ratio}: {failed} steps failed, open by {open} m"),
             Err(error) => {
-                assert!(matches!(error, StepError::Overflow { .. } | StepError::SolveNotFinite { .. }), "ratio {ratio}: {error}")
+                assert!(matches!(error, StepError::Overflow { .. } | StepError::SolveNotFinite { .. }), "ratio {ratio}: {error}");
             }
         }
         let error = swing(&mut solid(&chain(ratio, "\"stop\"", &ball))).expect_err("too long a step");
