@@ -75,7 +75,8 @@ pub(super) fn assemble<S: Space<D, N>, const D: usize, const N: usize>(
         Turning { bodies, middle: &work.middle, spins, h }.fill(&work.found, &work.previous, &mut work.remainders);
     }
     let last = if world.settings.rows == Rows::Turning { work.last.as_slice() } else { &[] };
-    let localiser = Localiser { world, middle: &work.middle, free: &work.free, spins, remainders: &work.remainders, last, h };
+    let (free, remainders, previous) = (&work.free, &work.remainders, &work.previous);
+    let localiser = Localiser { world, middle: &work.middle, free, spins, remainders, last, previous, h };
     localiser.each(&work.found, &mut work.contacts);
     work.joints.localise(world, &work.middle, &work.free, h);
     if world.settings.start == Start::Warm {

@@ -6,8 +6,8 @@
 //!
 //!   min ½ δ·M δ   with   gap + H_n* δ ≥ −½ ε R   at every contact,
 //!
-//! which is the problem of a step without friction with gaps for velocities; theory (67). Gaps are those of the next prediction q⁺ + h (1 − θ) v⁺, where the next
-//! contacts are sought: the bodies at the end of a step are between two predictions, and overlap no deeper. Velocities stay as they are, so no kinetic energy
+//! which is the problem of a step without friction with gaps for velocities; theory (67). That is done at the end of a step, which is what is drawn, and
+//! at the prediction of the next, where contacts act. Velocities stay as they are, so no kinetic energy
 //! is made; the height that weights gain is booked as energy created.
 
 mod doubt;
@@ -56,30 +56,22 @@ impl<const D: usize, const N: usize> Default for Correction<D, N> {
     }
 }
 
-/// Puts the positions right at the end of a step, if that is asked for and some overlap may be too deep there or at the next prediction; gives the
-/// seconds that contacts were looked for.
+/// Puts the positions right at the end of a step, if that is asked for and some overlap may be too deep there; gives the seconds that contacts
+/// were looked for.
 pub(super) fn at_end<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
 ) -> f64 {
     let Some(part) = world.settings.max_penetration else { return 0.0 };
-    let h = world.settings.h;
-    let mut seconds = 0.0;
-    // Where they are, and where they will be: a body that turns may dip in between two predictions.
-    for ahead in [0.0, h] {
-        let clock = Instant::now();
-        look_ahead(world, work, ahead);
-        let doubt = doubt::may_be_too_deep(world, work, part, ahead);
-        seconds += clock.elapsed().as_secs_f64();
-        if doubt {
-            seconds += positions(world, work, part, ahead);
-        }
-    }
-    seconds
+    let clock = Instant::now();
+    let doubt = doubt::may_be_too_deep(world, work, part);
+    let seconds = clock.elapsed().as_secs_f64();
+    if doubt { seconds + positions(world, work, part, 0.0) } else { seconds }
 }
 
-/// Puts the positions right where contacts were found at the beginning of a step that are too deep: those of the scene as it was given, of bodies that
-/// an event brought, of a drive that jumped. True if bodies were moved; contacts are then to be found anew.
+/// Puts the positions right where contacts that were found at the prediction of a step of length `h` are too deep: of the solver's tolerance, of an impact
+/// that turned what the rows of the beginning did not foresee, of the scene as it was given, of bodies that an event brought, of a drive that jumped. True
+/// if bodies were moved; contacts are then to be found anew.
 pub(super) fn at_start<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
@@ -111,6 +103,7 @@ fn positions<S: Space<D, N>, const D: usize, const N: usize>(
     ahead: f64,
 ) -> f64 {
     let mut seconds = 0.0;
+    look_ahead(world, work, ahead);
     let since = world.settings.h;
     let (_, before) = energies(&world.bodies, &world.gravity);
     work.correction.displacement.clear();

@@ -2,7 +2,7 @@
 
 use super::workspace::Localised;
 use crate::bodies::Bodies;
-use crate::contacts::Contact;
+use crate::contacts::{Contact, ContactKey};
 use crate::shape::Shape;
 use crate::space::{Pose, Space, swept};
 use crate::world::World;
@@ -38,6 +38,12 @@ const SLIDES: f64 = 1e-7;
 /// A contact slides steadily if its velocity is so many times half of what it changed by in the last step: the next steps do not end it.
 const STEADY: f64 = 8.0;
 
+/// How many times wider a gap may be where a contact carried something in the step before, to count as closed: a millionth of a body's size.
+const LASTING: f64 = 1e3;
+
+/// A contact that goes no farther in a step than so many times what rounding may make of a gap is at rest: a ten-millionth of a body's size.
+const AT_REST: f64 = 1e2;
+
 /// What localising reads.
 pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) world: &'a World<S, D, N>,
@@ -49,6 +55,8 @@ pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> 
     pub(super) remainders: &'a [[f64; D]],
     /// The velocities at the beginning of the step before; none where rows stay those of the prediction.
     pub(super) last: &'a [[f64; N]],
+    /// The impulses of the step before, sorted by key.
+    pub(super) previous: &'a [(ContactKey, [f64; D])],
     pub(super) h: f64,
 }
 
@@ -79,7 +87,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
             (1..D).for_each(|i| remainder[i] = -half[i]);
         }
         let remainder = lasting(remainder, before[0], contact.gap / self.h);
-        let closed_below = closed_below(bodies, [a, b]);
+        let closed_below = self.closed_below(contact, self.h * (norm(&before) + norm(&remainder)));
         let approach = Approach { gap: contact.gap, closed_below, before, remainder, step: self.h };
         let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach);
         let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
@@ -94,6 +102,19 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
             _ => in_frame::<D, TURNS>(&frame, &given(a, &before_a, &after_a), &given(b, &before_b, &after_b)),
         };
         Localised::new(*contact, frame, form, [before, after, driven])
+    }
+
+    /// Below which gap a contact that goes so far in the step (m) counts as closed, m: rounding, and where it is at rest and carried something in the step before a little more. What a solve's tolerance opens at some corners of a
+    /// face must not leave the others to carry everything.
+    fn closed_below(&self, contact: &Contact<D>, goes: f64) -> f64 {
+        let rounding = closed_below(&self.world.bodies, [contact.key.a, contact.key.b].map(|body| body as usize));
+        let lasting = LASTING * rounding;
+        let carried = || {
+            let before = self.previous.binary_search_by(|(key, _)| key.cmp(&contact.key));
+            before.is_ok_and(|c| self.previous[c].1[0] > 0.0)
+        };
+        let rests = goes <= AT_REST * rounding;
+        if rests && contact.gap > rounding && contact.gap <= lasting && carried() { lasting } else { rounding }
     }
 
     /// Of a contact that slides, half of what its velocity is going to change by, as it did in the step before: less that, the velocity at the end is the mean of the step's,
