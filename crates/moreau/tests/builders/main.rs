@@ -20,7 +20,7 @@ fn text(dimension: usize, kind: &str) -> String {
     format!(
         "dimension = {dimension}\ngravity = {gravity}\ntime = {{ step = 1e-3, steps = 10 }}\n\
          solver = {{ tolerance = 1e-8, max_sweeps = 20000 }}\nmaterials.stone.density = 1000.0\n\
-         default_law.coulomb.friction = 0.6\n\
+         default_law.coulomb = {{ friction = 0.6, acts = \"closed\" }}\n\
          [[bodies]]\nname = \"ground\"\nshape.{ground}\nmaterial = \"stone\"\nposition = {origin}\n\
          [[build]]\nname = \"it\"\nmaterial = \"stone\"\nposition = {origin}\nkind.{kind}\n"
     )

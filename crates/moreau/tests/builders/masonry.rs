@@ -157,8 +157,7 @@ fn unrest<S: Space<D, N>, const D: usize, const N: usize>(mut world: World<S, D,
     let mut kinetic = 0.0;
     for _ in 0..200 {
         let record = step(&mut world, &mut work).unwrap_or_else(|error| panic!("{error}"));
-        // An arch of vertical joints, which only friction holds, may stall just above the tolerance.
-        assert!(record.residual.scaled < 1e-7, "step {}: {:?}", record.step, record.residual);
+        assert!(record.converged(), "step {}: {:?}", record.step, record.residual);
         kinetic = record.energy.kinetic;
     }
     kinetic / (volume(&world) * 1000.0 * 9.81 * 1e-3)
@@ -166,6 +165,9 @@ fn unrest<S: Space<D, N>, const D: usize, const N: usize>(mut world: World<S, D,
 
 /// A free fall of 200 steps would give 200 of this measure. A solver of tolerance 1e-8 leaves velocities of some 1e-8 of those of one step's
 /// fall, g h = 1e-2 m/s, whose squares are 1e-20.
+///
+/// Contacts act when closed. The arch of vertical joints, which friction alone holds, has at 0.6 a rest and a fall that both obey the law; on approach
+/// sweeps end at the fall, and ADMM at the rest.
 #[test]
 fn what_should_stand_stands() {
     for kind in [
