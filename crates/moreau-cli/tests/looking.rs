@@ -133,7 +133,7 @@ fn a_run_that_was_killed_can_be_looked_at() {
         ["run", "ten.toml", "--out", "long", "--steps", "1000000000", "--set", "output={kinds=[\"trajectory\"],every=100}"];
     let mut child = place.command(&words).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let until = Instant::now() + Duration::from_secs(60);
-    while std::fs::metadata(place.path("long/trajectory.h5")).map_or(0, |file| file.len()) < 300_000 {
+    while std::fs::metadata(place.path("long/trajectory.h5")).map_or(0, |file| file.len()) < 3_000_000 {
         assert!(Instant::now() < until, "the trajectory does not grow");
         std::thread::sleep(Duration::from_millis(5));
     }
