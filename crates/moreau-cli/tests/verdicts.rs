@@ -113,13 +113,16 @@ fn numbers_that_overflow_end_the_run_with_a_message() {
     let ran = place.moreau(&[["run", "rest.toml"].as_slice(), &sets].concat());
     assert_eq!(ran.code, Some(4), "{ran:?}");
     assert!(
-        ran.err.starts_with("error: ") && ran.err.contains("finite number") && ran.err.contains("t = 0.001 s"),
+        ran.err.starts_with("error: ") && ran.err.contains("left the finite numbers") && ran.err.contains("t = 0.001 s"),
         "{}",
         ran.err
     );
     assert!(ran.out.contains("verdict: NOT TO BE RELIED ON\n  - the run failed: "), "{}", ran.out);
     let verdict = &place.summary("out/rest")["verdict"];
-    assert!(verdict["reliable"] == false && verdict["reasons"][0].as_str().unwrap().contains("finite number"), "{verdict:#}");
+    assert!(
+        verdict["reliable"] == false && verdict["reasons"][0].as_str().unwrap().contains("left the finite numbers"),
+        "{verdict:#}"
+    );
     let table = place.read("out/rest/steps.csv");
     assert!(!table.contains("inf") && !table.contains("NaN"), "{table}");
 }

@@ -200,7 +200,7 @@ bodies = [
     let lifted = world.bodies.mass[1][0] * 10.0 * (world.bodies.pose[1].position[1] - 0.49);
     assert!(lifted > 0.1 && (record.created.correction - lifted).abs() < 1e-12 * lifted, "{:?}, {lifted}", record.created);
     assert!(record.created.correction == record.created.total() && record.energy.balance_error.abs() < 1e-14);
-    // What the scene brings is put right before the first contacts: half of what is allowed is left.
+    // The correction takes out what the scene brings before the first contacts, and leaves half of what is allowed.
     assert!((record.overlap - 5e-4).abs() < 1e-12 && (record.penetration - 2.5e-4).abs() < 1e-12, "{record:?}");
     let mut world = plane(&format!("{deep}\n[guard]\nenergy = 0.1"));
     let record = step(&mut world, &mut Workspace::default()).unwrap();

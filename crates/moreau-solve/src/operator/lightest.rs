@@ -26,7 +26,7 @@ const STIFF: f64 = 1e4;
 /// How often contacts that cannot follow are left out.
 const ROUNDS: usize = 4;
 
-/// Scratch of [`MatrixFree::lighten`].
+/// Scratch of [`MatrixFree::balance`] and [`MatrixFree::lighten`].
 #[derive(Clone, Debug, Default)]
 pub struct Lightest<const D: usize, const N: usize> {
     /// k_c of each component; zero for what does not take part.

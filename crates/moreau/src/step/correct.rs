@@ -71,7 +71,7 @@ pub(super) fn at_end<S: Space<D, N>, const D: usize, const N: usize>(
 
 /// Puts the positions right where contacts that were found at the prediction of a step of length `h` are too deep: of the solver's tolerance, of an impact
 /// that turned what the rows of the beginning did not foresee, of the scene as it was given, of bodies that an event brought, of a drive that jumped. True
-/// if bodies were moved; contacts are then to be found anew.
+/// if bodies were moved; the caller then finds contacts anew.
 pub(super) fn at_start<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
@@ -154,7 +154,7 @@ fn allowed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D,
     part * radius(a).min(radius(b))
 }
 
-/// The contacts of the bodies where they will be, with those that a displacement may close: one about as long as how far they came last, which is
+/// The contacts of the bodies where they were looked ahead to, with those that a displacement may close: one about as long as how far they came last, which is
 /// how deep overlaps are.
 fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, work: &mut Workspace<S, D, N>, part: f64) {
     let (bodies, correction) = (&world.bodies, &mut work.correction);

@@ -42,7 +42,7 @@ const EVERY: u64 = 64;
 /// Among so few contacts it is looked for in each step that may need it.
 const FEW: usize = 128;
 
-/// Begins with an equilibrium where one is found; else takes from the impulses of contacts at rest what no velocity tells, where the last solve had sweeps to add some (theory (87)).
+/// Begins with an equilibrium where one is found, and takes from the impulses of contacts at rest what no velocity tells, where the last solve had sweeps to add some (theory (87)).
 pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
     world: &World<S, D, N>,
     work: &mut Workspace<S, D, N>,
