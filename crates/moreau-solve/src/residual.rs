@@ -15,11 +15,12 @@
 //! It adds velocities and an energy, so its meaning changes with the units. The scaled residual does not:
 //!
 //! ```text
-//! e_c = w_c ‖r − P_K(r − û/w_c)‖,  w_c = tr(W_cc)/D,  û = u + μ‖u_T‖ n,    scaled = √(Σ e_c²) / √(Σ ‖q_c‖² + ‖u_c‖²)
+//! e_c = w_c ‖r − P_K(r − û/w_c)‖,  w_c = tr(W_cc)/D,  û = u + μ‖u_T‖ n,    scaled = √(Σ e_c²) / √(Σ' ‖q_c‖² + ‖u_c‖²)
 //! ```
 //!
 //! with P_K the projection on the cone of impulses: e_c is a velocity, zero exactly at a solution, and the velocities without and with
-//! impulses (of which only the normal part counts where there is no friction) are what it is compared with. Velocities here are those of the normal form, with
+//! impulses (of which only the normal part counts where there is no friction) are what it is compared with. Σ' limits what contacts
+//! that stay open add: a wide gap divided by a short step would make any error small. Velocities here are those of the normal form, with
 //! the shift added; with restitution they are 1 + e times the formal ones of eq. 21, so with one coefficient e ε_glob is never smaller than the paper's.
 //! Of a rolling contact, spins and moments are first turned into velocities and impulses by an arm (theory (52)), for the same reason.
 //!
@@ -137,6 +138,7 @@ pub fn measure<O: Operator<D>, const D: usize>(
 ) -> Residual {
     let parts = fold(0..problem.len(), &|range| measured(problem, state, r, claimed, range), &Measures::with);
     let Measures { eps, plain, motion, outside, power, speeds, pushes, errors, error, worst } = parts;
+    let speeds = speeds.total();
     Residual {
         eps_glob: eps.mean(problem.len()),
         scaled: ratio(errors, speeds),
@@ -158,7 +160,7 @@ struct Measures {
     motion: f64,
     outside: f64,
     power: f64,
-    speeds: f64,
+    speeds: Speeds,
     /// Σ (w_c ‖r_c‖)².
     pushes: f64,
     /// Σ e_c² and Σ e_c.
@@ -175,7 +177,7 @@ impl Measures {
         self.motion += other.motion;
         self.outside += other.outside;
         self.power += other.power;
-        self.speeds += other.speeds;
+        self.speeds.with(&other.speeds);
         self.pushes += other.pushes;
         self.errors += other.errors;
         self.error += other.error;
@@ -204,8 +206,14 @@ fn measured<O: Operator<D>, const D: usize>(
         let velocity = problem.velocity(state, c);
         all.eps.add(&eps_glob(problem, c, claimed.map_or(&velocity, |claimed| &claimed[c]), &velocity, &r[c]));
         all.plain.add(problem, c, &velocity, &r[c]);
-        let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
-        all.speeds += squared(&q) + squared(&u);
+        let one = in_one_unit(problem, c, &velocity, &r[c]);
+        if stays_open(&one) {
+            all.speeds.add_open(&one.q, &one.u);
+            all.meet(Worst { contact: c, error: 0.0 });
+            continue;
+        }
+        let Measured { cone, w, q, u, r } = one;
+        all.speeds.add(&q, &u);
         all.pushes += w * w * squared(&r);
         all.motion += claimed.map_or(0.0, |claimed| squared(&sub(&in_one_unit(problem, c, &claimed[c], &r).u, &u)));
         let half_line = D == 1 && !matches!(cone, Cone::Bilateral { .. });
@@ -310,20 +318,25 @@ fn naturals<O: Operator<D>, const D: usize, const SCALED: bool, const SICONOS: b
     state: &O::State,
     r: &[Vector<D>],
 ) -> (f64, f64) {
-    let (mut errors, mut speeds, mut plain) = (0.0, 0.0, Plain::default());
+    let (mut errors, mut speeds, mut plain) = (0.0, Speeds::default(), Plain::default());
     for c in 0..problem.len() {
         let velocity = problem.velocity(state, c);
         if SCALED {
-            let Measured { cone, w, q, u, r } = in_one_unit(problem, c, &velocity, &r[c]);
-            let error = natural(cone, w, &u, &r);
-            errors += error * error;
-            speeds += squared(&q) + squared(&u);
+            let one = in_one_unit(problem, c, &velocity, &r[c]);
+            if stays_open(&one) {
+                speeds.add_open(&one.q, &one.u);
+            } else {
+                let Measured { cone, w, q, u, r } = one;
+                let error = natural(cone, w, &u, &r);
+                errors += error * error;
+                speeds.add(&q, &u);
+            }
         }
         if SICONOS {
             plain.add(problem, c, &velocity, &r[c]);
         }
     }
-    (ratio(errors, speeds), plain.ratio())
+    (ratio(errors, speeds.total()), plain.ratio())
 }
 
 /// √(a/b), zero where a is, NaN where one is not finite: a projection may make zero of what is no number, the sizes still show it.
@@ -339,6 +352,57 @@ fn ratio(a: f64, b: f64) -> f64 {
 #[inline]
 fn squared<const D: usize>(a: &Vector<D>) -> f64 {
     dot(a, a)
+}
+
+/// True if a contact carries nothing and is open without impulses and with them: it obeys its law whatever its gap is. What is held never does so by
+/// being open.
+#[inline(always)]
+fn stays_open<const D: usize>(Measured { cone, q, u, r, .. }: &Measured<D>) -> bool {
+    let parts = matches!(cone, Cone::Signorini | Cone::Coulomb(_) | Cone::Rolling { .. });
+    let open = parts && q[0] > 0.0 && u[0] > 0.0 && r.iter().all(|&x| x == 0.0);
+    // What is no finite number is to be seen.
+    open && squared(q) + squared(u) < f64::INFINITY
+}
+
+/// How many times faster than the fastest of the others a contact that stays open may count.
+const FASTER: f64 = 10.0;
+
+/// The scale of the scaled residual. Contacts that stay open have their gap, divided by the step, in both velocities, which may be any number:
+/// all together they count for no more than if each were [`FASTER`] than the fastest of the others (theory (38)).
+#[derive(Clone, Copy, Default)]
+struct Speeds {
+    /// Σ ‖q‖² + ‖u‖² and its greatest part.
+    sum: f64,
+    fastest: f64,
+    /// The sum for contacts that stay open, and how many they are.
+    open: f64,
+    count: u32,
+}
+
+impl Speeds {
+    #[inline(always)]
+    fn add<const D: usize>(&mut self, q: &Vector<D>, u: &Vector<D>) {
+        let speed = squared(q) + squared(u);
+        self.sum += speed;
+        self.fastest = larger(self.fastest, speed);
+    }
+
+    #[inline(always)]
+    fn add_open<const D: usize>(&mut self, q: &Vector<D>, u: &Vector<D>) {
+        self.open += squared(q) + squared(u);
+        self.count += 1;
+    }
+
+    fn with(&mut self, other: &Self) {
+        self.sum += other.sum;
+        self.fastest = larger(self.fastest, other.fastest);
+        self.open += other.open;
+        self.count += other.count;
+    }
+
+    fn total(&self) -> f64 {
+        self.sum + self.open.min(FASTER * FASTER * f64::from(self.count) * self.fastest)
+    }
 }
 
 /// One contact as the scaled residual sees it.

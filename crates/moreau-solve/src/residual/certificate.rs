@@ -67,12 +67,12 @@ pub struct Residual {
     pub scaled: f64,
     /// Mean of e_c over the contacts, m/s.
     pub error: f64,
-    /// What rounding alone may make of the scaled residual: 64 ε √(Σ (w_c ‖r_c‖)²) / √(Σ ‖q_c‖² + ‖u_c‖²). It is large where impulses hold
+    /// What rounding alone may make of the scaled residual: 64 ε √(Σ (w_c ‖r_c‖)²) / √(Σ' ‖q_c‖² + ‖u_c‖²). It is large where impulses hold
     /// each other in balance and nothing moves.
     pub rounding: f64,
     /// The residual that Siconos reports.
     pub siconos: f64,
-    /// How far claimed velocities are from W r + q, in the scale of the scaled residual: √(Σ ‖ũ − u‖²) / √(Σ ‖q‖² + ‖u‖²).
+    /// How far claimed velocities are from W r + q, in the scale of the scaled residual: √(Σ ‖ũ − u‖²) / √(Σ' ‖q‖² + ‖u‖²).
     pub motion: f64,
     /// How far impulses and velocities are from their cones, in the same scale: of w dist(r, K) + dist(û, K*).
     pub cone: f64,

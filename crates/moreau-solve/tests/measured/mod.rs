@@ -43,8 +43,8 @@ fn nearest(tau: &[f64], parts: &[(std::ops::Range<usize>, f64)]) -> Vec<f64> {
     image
 }
 
-/// e_c and ‖q_c‖² + ‖u_c‖² of one contact with the diagonal `w` of its block.
-fn contact(cone: Cone, w: &[f64], q: &[f64], u: &[f64], r: &[f64]) -> (f64, f64) {
+/// e_c and ‖q_c‖² + ‖u_c‖² of one contact with the diagonal `w` of its block, and whether it stays open.
+fn contact(cone: Cone, w: &[f64], q: &[f64], u: &[f64], r: &[f64]) -> (f64, f64, bool) {
     let size = r.len();
     let mean = |range: &[usize]| range.iter().map(|&i| w[i]).sum::<f64>() / range.len().max(1) as f64;
     let all: Vec<usize> = (0..size).collect();
@@ -64,6 +64,8 @@ fn contact(cone: Cone, w: &[f64], q: &[f64], u: &[f64], r: &[f64]) -> (f64, f64)
     let of = |x: &[f64]| -> Vec<f64> { (0..size).map(|i| if known.contains(&i) { arm[i] * x[i] } else { 0.0 }).collect() };
     let (q, mut u) = (of(q), of(u));
     let r: Vec<f64> = (0..size).map(|i| r[i] / arm[i]).collect();
+    let carries = matches!(cone, Cone::Bilateral { .. } | Cone::Sticking) || norm(&r) > 0.0;
+    let open = !carries && q[0] > 0.0 && u[0] > 0.0;
     let speeds = norm(&q).powi(2) + norm(&u).powi(2);
     let parts = match cone {
         Cone::Signorini => vec![(1..size, 0.0)],
@@ -80,19 +82,22 @@ fn contact(cone: Cone, w: &[f64], q: &[f64], u: &[f64], r: &[f64]) -> (f64, f64)
         _ => nearest(&tau, &parts),
     };
     let apart: Vec<f64> = (0..size).map(|i| if step.is_finite() { r[i] } else { 0.0 } - image[i]).collect();
-    (scale * norm(&apart), speeds)
+    (scale * norm(&apart), speeds, open)
 }
 
 /// The measures of a flat answer: `diagonal`, `q`, `u` and `r` have `size` numbers a contact.
 pub(crate) fn flat(size: usize, cones: &[Cone], diagonal: &[f64], q: &[f64], u: &[f64], r: &[f64]) -> Measured {
-    let (mut squares, mut sum, mut speeds) = (0.0, 0.0, 0.0);
+    let (mut squares, mut sum) = (0.0, 0.0);
+    let (mut open, mut other) = (vec![], vec![]);
     for (c, &cone) in cones.iter().enumerate() {
         let at = |x: &[f64]| x[c * size..(c + 1) * size].to_vec();
-        let (error, speed) = contact(cone, &at(diagonal), &at(q), &at(u), &at(r));
+        let (error, speed, is_open) = contact(cone, &at(diagonal), &at(q), &at(u), &at(r));
         squares += error * error;
         sum += error;
-        speeds += speed;
+        if is_open { open.push(speed) } else { other.push(speed) }
     }
+    let fastest = other.iter().copied().fold(0.0, f64::max);
+    let speeds = other.iter().sum::<f64>() + open.iter().sum::<f64>().min(100.0 * open.len() as f64 * fastest);
     let scaled = if squares == 0.0 { 0.0 } else { (squares / speeds).sqrt() };
     Measured { scaled, error: sum / cones.len().max(1) as f64 }
 }
