@@ -3,7 +3,7 @@
 //! ```text
 //! minimise ½ xᵀ W x + (q + s)ᵀ x over x = z, z ∈ K,   s = μ‖u_T‖ n (de Saxcé's correction)
 //! repeat until the criterion is met:
-//!   (W + ϱ D) x = ϱ D (z − λ) − q − s            D = diag w_c, factorised once for each ϱ
+//!   (W + ϱ D) x = ϱ D (z − λ) − q − s            D = diag w_c (far more for wide gaps), factorised once for each ϱ
 //!   x̂ = α x + (1 − α) z                          over-relaxation
 //!   z⁺ = P_K(x̂ + λ),  λ ← λ + x̂ − z⁺
 //!   û = −ϱ D λ,  s = μ‖û_T‖ n                    λ is the velocity: at the end û ∈ K* is orthogonal to z, as of each projection
@@ -24,7 +24,7 @@ mod through_bodies;
 use super::Work;
 use super::steps::{after_step, product, scales};
 use crate::block::{Vector, axpy, norm, sub};
-use crate::{Operator, Problem, Status};
+use crate::{Cone, Operator, Problem, Status};
 use factors::{System, ThroughContacts};
 use through_bodies::ThroughBodies;
 
@@ -39,6 +39,24 @@ const FIRST: f64 = 0.1;
 /// By which factor ϱ has to be wrong to be changed, and after how many steps it may be at first.
 const WRONG: f64 = 5.0;
 const FIRST_WAIT: u64 = 10;
+
+/// A contact so many times as wide as the others are fast is hardly going to close; so many times heavier is it held to its zero.
+const WIDE: f64 = 10.0;
+const HELD: f64 = 1e4;
+
+/// Whether contacts are far from closing: their velocities the iteration would have to find to many digits by ϱ alone.
+fn wide<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Vec<bool> {
+    let closing = |c: usize| if problem.q[c][0] > 0.0 { 0.0 } else { norm(&problem.q[c]) };
+    let fastest = (0..problem.len()).map(closing).fold(0.0, f64::max);
+    let parts = |cone| matches!(cone, Cone::Signorini | Cone::Coulomb(_) | Cone::Rolling { .. });
+    (0..problem.len()).map(|c| problem.q[c][0] > WIDE * fastest && parts(problem.cones[c])).collect()
+}
+
+/// D: w_c, and more of it for contacts that are `held` to zero.
+fn diagonal<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, held: &[bool]) -> Vec<f64> {
+    let w = scales(problem);
+    w.into_iter().zip(held).map(|(w, &held)| if held { HELD * w } else { w }).collect()
+}
 
 /// The variables of the iteration.
 struct Variables<const D: usize> {
@@ -62,16 +80,27 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
     if let Some(status) = work.certify() {
         return status;
     }
-    let Some(mut system) = system(work.problem) else { return Status::Unsuited };
-    let mut variables = Variables::new(work);
+    let mut held = wide(work.problem);
+    let Some(mut system) = system(work.problem, &held) else { return Status::Unsuited };
+    let mut variables = Variables::new(work, &held);
     let (mut wait, mut changed_at) = (FIRST_WAIT, work.judge.sweeps);
     if !system.factorise(variables.rho) {
         return Status::Stalled;
     }
     loop {
-        variables.step(work, &*system);
+        variables.step(work, &*system, &held);
         if let Some(status) = after_step(work) {
             return status;
+        }
+        // One that closes is like the others.
+        if held.iter().zip(&*work.r).any(|(&held, r)| held && *r != [0.0; D]) {
+            held.fill(false);
+            variables.weigh(diagonal(work.problem, &held));
+            let Some(plain) = self::system(work.problem, &held) else { return Status::Unsuited };
+            system = plain;
+            if !system.factorise(variables.rho) {
+                return Status::Stalled;
+            }
         }
         let ratio = (variables.primal / variables.dual).sqrt();
         if work.judge.sweeps - changed_at >= wait && ratio.is_finite() && ratio > 0.0 && (ratio > WRONG || ratio * WRONG < 1.0) {
@@ -95,23 +124,24 @@ pub(super) fn suits<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>)
 }
 
 /// W + ϱ D in the smaller of its two forms; `None` where the problem is too large.
-fn system<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Option<Box<dyn System<D>>> {
+fn system<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, held: &[bool]) -> Option<Box<dyn System<D>>> {
     if problem.len() * D > LIMIT {
         return None;
     }
-    match ThroughBodies::new(problem) {
+    let diagonal = diagonal(problem, held);
+    match ThroughBodies::new(problem, &diagonal) {
         Some(system) => Some(Box::new(system)),
-        None => Some(Box::new(ThroughContacts::new(problem)?)),
+        None => Some(Box::new(ThroughContacts::new(problem, &diagonal)?)),
     }
 }
 
 impl<const D: usize> Variables<D> {
     /// From the impulses of now and their velocities.
-    fn new<O: Operator<D>>(work: &mut Work<'_, O, D>) -> Self {
+    fn new<O: Operator<D>>(work: &mut Work<'_, O, D>, held: &[bool]) -> Self {
         let problem = work.problem;
         let mut u = vec![[0.0; D]; problem.len()];
         product(problem, &mut work.scratch.state, work.r, &mut u);
-        let (w, rho) = (scales(problem), FIRST);
+        let (w, rho) = (diagonal(problem, held), FIRST);
         let mut lambda = u.clone();
         for c in 0..problem.len() {
             let dual = problem.cones[c].project_dual(&problem.cones[c].hat(&axpy(&problem.q[c], 1.0, &u[c])));
@@ -120,7 +150,7 @@ impl<const D: usize> Variables<D> {
         Self { w, rho, x: u, lambda, free: problem.q.to_vec(), primal: 0.0, dual: 0.0 }
     }
 
-    fn step<O: Operator<D>>(&mut self, work: &mut Work<'_, O, D>, system: &dyn System<D>) {
+    fn step<O: Operator<D>>(&mut self, work: &mut Work<'_, O, D>, system: &dyn System<D>, held: &[bool]) {
         let problem = work.problem;
         for c in 0..problem.len() {
             let hat = self.lambda[c].map(|x| -self.rho * self.w[c] * x);
@@ -142,11 +172,20 @@ impl<const D: usize> Variables<D> {
             apart += square(norm(&sub(&self.x[c], &next)));
             moved += square(norm(&sub(&next, &z)));
             impulses += square(norm(&next));
-            velocities += square(norm(&self.lambda[c]));
+            // A wide gap is in the velocity, which says nothing of the others.
+            velocities += if held[c] { 0.0 } else { square(norm(&self.lambda[c])) };
             work.r[c] = next;
         }
         self.primal = (apart / impulses).sqrt();
         self.dual = (moved / velocities).sqrt();
+    }
+
+    /// Another D with the same velocities.
+    fn weigh(&mut self, w: Vec<f64>) {
+        for ((lambda, before), now) in self.lambda.iter_mut().zip(&self.w).zip(&w) {
+            *lambda = lambda.map(|x| if *now > 0.0 { x * (before / now) } else { 0.0 });
+        }
+        self.w = w;
     }
 
     /// ϱ ← ratio · ϱ with the same velocities.

@@ -3,7 +3,6 @@
 //! All is divided by the greatest w_c, so that the same problem in other units has the same factors to the bit. An unknown that
 //! is zero by its law, or that impulses do not move, has a row of its own and stays as it is.
 
-use super::super::steps::scales;
 use super::FILL;
 use crate::block::Vector;
 use crate::{Cone, Operator, Problem};
@@ -25,9 +24,8 @@ pub(super) trait System<const D: usize> {
     fn solve(&self, x: &mut [Vector<D>], r: &[Vector<D>]);
 }
 
-/// D for each unknown, zero where it stays, and the greatest of them.
-pub(super) fn weights<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> (Vec<f64>, f64) {
-    let w = scales(problem);
+/// D for each unknown, `w` for each contact and zero where it stays, and the greatest of them.
+pub(super) fn weights<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, w: &[f64]) -> (Vec<f64>, f64) {
     let greatest = w.iter().copied().fold(0.0, f64::max);
     let frictionless = |c: usize| problem.cones[c] == Cone::Coulomb(0.0);
     let zero = |k: usize| !problem.cones[k / D].binds(k % D) || (!k.is_multiple_of(D) && frictionless(k / D));
@@ -62,9 +60,9 @@ enum Factors {
 
 impl ThroughContacts {
     /// `None` where the problem is too large.
-    pub(super) fn new<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Option<Self> {
+    pub(super) fn new<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, diagonal: &[f64]) -> Option<Self> {
         let unknowns = problem.len() * D;
-        let (weights, greatest) = weights(problem);
+        let (weights, greatest) = weights(problem, diagonal);
         let weights: Vec<f64> = weights.into_iter().map(|w| if greatest > 0.0 { w / greatest } else { 0.0 }).collect();
         let mut entries: Vec<_> = (0..unknowns).filter(|&k| weights[k] == 0.0).map(|k| Triplet::new(k, k, 1.0)).collect();
         for (c, d, block) in problem.operator.stored().blocks() {

@@ -28,9 +28,9 @@ pub(super) struct ThroughBodies {
 
 impl ThroughBodies {
     /// `None` where W is not known through fewer numbers than it has rows, or they are too many.
-    pub(super) fn new<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Option<Self> {
+    pub(super) fn new<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, diagonal: &[f64]) -> Option<Self> {
         let root = problem.operator.root()?;
-        let (weights, _) = weights(problem);
+        let (weights, _) = weights(problem, diagonal);
         if root.columns >= weights.len() {
             return None;
         }
