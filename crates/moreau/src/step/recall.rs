@@ -11,7 +11,7 @@ use moreau_solve::tasks;
 /// What of the way to the least impulses a start goes at once.
 const PART: f64 = 0.5;
 
-/// A contact that slides by less than this part of the smaller body in a step is at rest.
+/// A contact with a gap below this part of the smaller body's size that goes no farther in a step is at rest.
 const AT_REST: f64 = 1e-7;
 
 /// Gives contacts the impulses of the step before, as far as they had any. Both lists are sorted by key.
@@ -39,7 +39,10 @@ pub(super) fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mu
 /// After how many steps an equilibrium is looked for again, beside those that are powers of two. One that was found is kept by starting from it.
 const EVERY: u64 = 64;
 
-/// Among so few contacts it is looked for in each step that may need it.
+/// After how many steps impulses are made lighter again: they wander slowly.
+const LIGHTER_EVERY: u64 = 16;
+
+/// Among so few contacts both are done in each step that may need it.
 const FEW: usize = 128;
 
 /// Begins with an equilibrium where one is found, and takes from the impulses of contacts at rest what no velocity tells, where the last solve had sweeps to add some (theory (87)).
@@ -58,11 +61,14 @@ pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
         pair.into_iter().flatten().filter_map(radius).fold(f64::INFINITY, f64::min)
     };
     let rest = |c: usize| {
-        let (before, pair) = match contacts.get(c) {
-            Some(contact) => (&contact.before, [contact.contact.key.a, contact.contact.key.b].map(|body| Some(body as usize))),
-            None => (&blocks[c - contacts.len()].before, blocks[c - contacts.len()].bodies),
+        let (before, gap, pair) = match contacts.get(c) {
+            Some(Localised { before, contact, .. }) => {
+                (before, contact.gap, [contact.key.a, contact.key.b].map(|body| Some(body as usize)))
+            }
+            None => (&blocks[c - contacts.len()].before, 0.0, blocks[c - contacts.len()].bodies),
         };
-        h * norm(before) <= AT_REST * size(pair)
+        // A gap that stays open carries nothing.
+        gap.max(h * norm(before)) <= AT_REST * size(pair)
     };
     let few = contacts.len() + blocks.len() <= FEW;
     if !warm || few || world.steps.is_multiple_of(EVERY) || world.steps.is_power_of_two() {
@@ -74,7 +80,7 @@ pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
         tasks::fill(&mut work.held, bodies.len(), |i| std::array::from_fn(|k| held(i, k)));
         work.systems.full.balance(&rest, &work.held, &mut work.lightest);
     }
-    if warm {
+    if warm && (few || world.steps.is_multiple_of(LIGHTER_EVERY)) {
         work.systems.full.lighten(&rest, PART, &mut work.lightest);
     }
 }

@@ -58,12 +58,11 @@ impl<const D: usize, const N: usize> Held<D, N> {
         closed
     }
 
-    /// Moves the bodies back onto their joints by the least displacement in the norm of M.
+    /// Moves the bodies back onto their joints by the least displacement in the norm of M. Joints that count as closed are closed once more: what is left of them, divided
+    /// by the step, would be a velocity.
     pub(super) fn restore<S: Space<D, N>>(&mut self, world: &mut World<S, D, N>, elimination: &mut Elimination<D>) {
         for _ in 0..ROUNDS {
-            if self.place(world) {
-                return;
-            }
+            let closed = self.place(world);
             let (bodies, blocks) = (&mut world.bodies, &self.blocks);
             if !elimination.prepare(blocks.iter().map(|block| free(bodies, block))) {
                 return;
@@ -76,6 +75,9 @@ impl<const D: usize, const N: usize> Held<D, N> {
                 blocks[i].push(change, &bodies.inverse_mass, &mut self.moves);
             }
             shift(bodies, &self.moves);
+            if closed {
+                return;
+            }
         }
     }
 }
