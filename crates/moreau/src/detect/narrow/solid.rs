@@ -21,6 +21,7 @@ mod facets;
 mod polyhedron_box;
 mod polyhedron_half_space;
 mod polyhedron_polyhedron;
+mod spread;
 mod surface;
 
 use crate::shape::{Placed, SolidShape};

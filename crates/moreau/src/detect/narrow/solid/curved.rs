@@ -95,6 +95,12 @@ pub(super) fn contacts<A: Convex, B: Convex>(
     if best.is_beyond(touch) {
         return;
     }
+    if let Some(face) = best.face_beside() {
+        let points = points_along(best, face, touch);
+        if !points.all().is_empty() {
+            return show(points, pose, emit);
+        }
+    }
     let mut points = points_along(best, &best.first, touch);
     if !points.have_least(1.0) {
         // Only nearly as good as the best, so that what is lowest lies beside what is highest.

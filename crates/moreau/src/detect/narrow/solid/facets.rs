@@ -16,8 +16,8 @@ mod seen;
 
 use super::Pose;
 use super::curved::seen_from;
-use crate::detect::narrow::common::LEVEL;
-use crate::detect::narrow::vector::along;
+use crate::detect::narrow::common::{LEVEL, SAME};
+use crate::detect::narrow::vector::{along, dot};
 use crate::shape::solid::Faceted;
 use crate::space::{Solid, Space};
 pub(super) use axes::support;
@@ -129,6 +129,9 @@ impl Scratch {
         if let Some((point, within)) = edges(a, b, apart, level, &mut self.bounds)
             && point.gap > apart + level
         {
+            if self.least() < f64::INFINITY && dot(point.normal, normal) > 1.0 - SAME {
+                return;
+            }
             (normal, apart) = (point.normal, point.gap);
             self.points.clear();
             if apart > reach {
@@ -139,8 +142,11 @@ impl Scratch {
             }
         }
         if self.least() > apart.max(0.0) + level {
-            self.points.clear();
-            self.points.add(nearest(a, b, (normal, apart), level));
+            let point = nearest(a, b, (normal, apart), level);
+            if point.gap < self.least() {
+                self.points.clear();
+                self.points.add(point);
+            }
         }
     }
 

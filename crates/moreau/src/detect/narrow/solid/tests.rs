@@ -5,6 +5,7 @@ use glam::{DQuat, DVec3};
 
 mod boxes;
 mod curved;
+mod level;
 mod polyhedra;
 mod resting;
 mod surfaces;

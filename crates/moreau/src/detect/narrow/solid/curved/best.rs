@@ -3,6 +3,8 @@
 use super::{Convex, Touch, unit};
 use crate::detect::narrow::vector::{dot, sub};
 
+use crate::detect::narrow::common::SAME;
+
 /// A direction from the first body to the second.
 #[derive(Clone, Copy)]
 pub(super) struct Direction {
@@ -22,12 +24,14 @@ pub(in crate::detect::narrow::solid) struct Best<'a, A, B> {
     /// that are apart.
     pub(super) first: Direction,
     pub(super) best: Direction,
+    /// The first of the normals of faces that are as good as each other.
+    face: Direction,
 }
 
 impl<'a, A: Convex, B: Convex> Best<'a, A, B> {
     pub(in crate::detect::narrow::solid) fn new(a: &'a A, b: &'a B, level: f64) -> Self {
         let nothing = Direction { normal: [0.0, 0.0, 1.0], apart: f64::NEG_INFINITY, pair: None };
-        Self { a, b, level, first: nothing, best: nothing }
+        Self { a, b, level, first: nothing, best: nothing, face: nothing }
     }
 
     /// Whether the bodies are too far apart along the best direction, or nowhere.
@@ -49,6 +53,15 @@ impl<'a, A: Convex, B: Convex> Best<'a, A, B> {
     /// Tries the normal of a face, into the second body, along which the bodies are apart by so much.
     pub(super) fn take_face(&mut self, normal: [f64; 3], apart: f64) {
         self.take(normal, apart, None);
+        if apart > self.face.apart + self.level {
+            self.face = Direction { normal, apart, pair: None };
+        }
+    }
+
+    /// The normal of a face, where the best direction is not that of a face but nearly so.
+    pub(super) fn face_beside(&self) -> Option<&Direction> {
+        let beside = self.first.apart > self.face.apart && dot(self.first.normal, self.face.normal) > 1.0 - SAME;
+        beside.then_some(&self.face)
     }
 
     /// Tries both caps of a cylinder with this axis.

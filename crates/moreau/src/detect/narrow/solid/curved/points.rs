@@ -1,6 +1,7 @@
 //! The points of a contact, and which of them are kept.
 
 use super::Touch;
+use crate::detect::narrow::solid::spread::spread;
 use crate::detect::narrow::vector::{dot, sub};
 use crate::space::{Solid, Space};
 
@@ -87,20 +88,8 @@ impl Points {
         if self.count <= 4 {
             return;
         }
-        let (points, level) = (&self.all[..self.count], self.level);
-        let mut chosen = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].map(|[x, y]| {
-            let out = |i: usize| x * dot(s, points[i].at) + y * dot(t, points[i].at);
-            (1..points.len()).fold(0, |best, i| if out(i) > out(best) + level { i } else { best })
-        });
-        let deepest = (1..points.len()).fold(0, |best, i| if points[i].gap < points[best].gap - level { i } else { best });
-        if chosen.iter().all(|&i| points[i].gap > points[deepest].gap + level) {
-            let apart = |i: usize| {
-                let way = sub(points[i].at, points[deepest].at);
-                dot(way, way)
-            };
-            let nearest = (1..4).fold(0, |best, k| if apart(chosen[k]) < apart(chosen[best]) { k } else { best });
-            chosen[nearest] = deepest;
-        }
+        let points = &self.all[..self.count];
+        let mut chosen = spread(points.len(), |i| (points[i].at, points[i].gap), [s, t], self.level);
         chosen.sort_unstable();
         self.count = 0;
         for (k, &i) in chosen.iter().enumerate() {

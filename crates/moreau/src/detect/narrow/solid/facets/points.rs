@@ -1,6 +1,7 @@
 //! The points of a pair, and which four of many are kept.
 
 use super::Point;
+use crate::detect::narrow::solid::spread::spread;
 use crate::detect::narrow::vector::{dot, sub};
 use crate::space::{Solid, Space};
 
@@ -45,23 +46,10 @@ impl Points {
     }
 
     fn four(&mut self, level: f64) {
-        let all = 0..self.all.len();
-        let [_, s, t] = Solid::frame(self.all[0].normal);
-        let mut chosen = [usize::MAX; 4];
-        for (corner, [x, y]) in [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].into_iter().enumerate() {
-            let out = |i: usize| x * dot(s, self.all[i].at) + y * dot(t, self.all[i].at);
-            chosen[corner] = all.clone().fold(0, |best, i| if out(i) > out(best) + level { i } else { best });
-        }
-        let deepest = all.fold(0, |best, i| if self.all[i].gap < self.all[best].gap - level { i } else { best });
-        if !chosen.contains(&deepest) {
-            let apart = |i: usize| {
-                let between = sub(self.all[i].at, self.all[deepest].at);
-                dot(between, between)
-            };
-            let nearest = (1..4).fold(0, |best, k| if apart(chosen[k]) < apart(chosen[best]) { k } else { best });
-            chosen[nearest] = deepest;
-        }
+        let all = &self.all;
+        let [_, s, t] = Solid::frame(all[0].normal);
+        let kept = spread(all.len(), |i| (all[i].at, all[i].gap), [s, t], level);
         let mut place = 0..;
-        self.all.retain(|_| place.next().is_some_and(|i| chosen.contains(&i)));
+        self.all.retain(|_| place.next().is_some_and(|i| kept.contains(&i)));
     }
 }

@@ -219,7 +219,10 @@ fn check(a: &Body, b: &Body, search: bool, dice: &mut Pcg64Mcg) {
     assert!(!found.is_empty() && found.len() <= 4, "{}", place());
     let least = found.iter().min_by(|x, y| x.3.total_cmp(&y.3)).unwrap();
     let (gap, n) = (least.3, DVec3::from(least.2));
-    assert!((apart(a, b, n) - gap).abs() < 2e-9 * size, "{} along the normal, not {gap}: {}", apart(a, b, n), place());
+    // Points of a face are kept where two edges have a normal that is 0.14 mrad from the face's.
+    let below = if found.len() > 1 { 1.5e-4 } else { 2e-9 } * size;
+    let along = apart(a, b, n) - gap;
+    assert!(along < 2e-9 * size && along > -below, "{} along the normal, not {gap}: {}", apart(a, b, n), place());
     for &(f, p, n, g) in &found {
         let (p, n) = (DVec3::from(p), DVec3::from(n));
         assert!((n.length() - 1.0).abs() < 1e-12 && f < 1 << 32, "{}", place());
@@ -230,11 +233,11 @@ fn check(a: &Body, b: &Body, search: bool, dice: &mut Pcg64Mcg) {
     assert!(found.windows(2).all(|two| two[0].0 < two[1].0), "features ascend: {}", place());
     if search && gap < 0.0 {
         let better = best_by_search(a, b, dice);
-        assert!(better < gap + 2e-9 * size, "{better} would be better than {gap}: {}", place());
+        assert!(better < gap + 1e-8 * size, "{better} would be better than {gap}: {}", place());
     }
     let back = contacts(b, a, size);
     let other = back.iter().map(|contact| contact.3).fold(f64::INFINITY, f64::min);
-    assert!((gap - other).abs() < 2e-9 * size, "{gap} but {other} the other way round: {}", place());
+    assert!((gap - other).abs() < 1e-8 * size, "{gap} but {other} the other way round: {}", place());
 }
 
 fn check_all(seed: u64, count: usize, search: bool) {

@@ -37,7 +37,13 @@ fn proves<A: Faceted, B: Faceted>(a: (&A, Pose), b: (&B, Pose), found: &[Found],
     let &(_, p, n, gap) = found.iter().min_by(|p, q| p.3.total_cmp(&q.3)).unwrap();
     let (p, n) = (DVec3::from(p), DVec3::from(n));
     assert!((n.length() - 1.0).abs() < 1e-12);
-    assert!((apart(a, b, n) - gap).abs() < level, "along the normal they are {} apart, not {gap}", apart(a, b, n));
+    // Points of a face are kept where two edges have a normal that is 0.14 mrad from the face's; sizes are below 4.
+    let along = apart(a, b, n) - gap;
+    assert!(
+        along < level && along > if found.len() > 1 { -6e-4 } else { -level },
+        "along the normal they are {} apart, not {gap}",
+        apart(a, b, n)
+    );
     let (on_a, on_b) = (p - 0.5 * gap * n, p + 0.5 * gap * n);
     assert!(outside(a, on_a) < level && outside(b, on_b) < level, "{} {}", outside(a, on_a), outside(b, on_b));
     if gap < 0.0 {
@@ -49,7 +55,7 @@ fn proves<A: Faceted, B: Faceted>(a: (&A, Pose), b: (&B, Pose), found: &[Found],
         for k in 0..400 {
             let r = DVec3::new(roll(), roll(), roll());
             let other = if k < 200 { r.normalize() } else { (n + 0.1_f64.powi(k % 8) * r).normalize() };
-            assert!(apart(a, b, other) < gap + level, "along {other} they overlap by less");
+            assert!(apart(a, b, other) < gap + 2.0 * level, "along {other} they overlap by less");
         }
     }
 }
