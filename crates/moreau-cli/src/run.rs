@@ -18,8 +18,8 @@ use moreau::space::Space;
 use moreau::step::Workspace;
 use moreau::world::World;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use words::{describe, ending, judge, kept};
 
 /// Arguments of `moreau run`.
@@ -134,24 +134,18 @@ fn go<S: Space<D, N>, const D: usize, const N: usize>(
     ready: Ready<'_, S, D, N>,
     folder: &Path,
 ) -> Result<(), Failure> {
-    let (stop, pace) = (progress::stop_on_ctrl_c()?, Pace::default());
+    let (stop, pace) = (progress::stop_on_ctrl_c()?, Arc::new(Pace::default()));
     if !args.view {
         return compute(args, scene, ready, folder, (stop, &pace));
     }
-    let mut viewer = view::begin(folder)?;
-    let (running, done) = (AtomicBool::new(true), AtomicBool::new(false));
-    std::thread::scope(|scope| {
-        scope.spawn(|| viewer.serve(&done, &running, |order| pace.order(order, stop)));
-        let result = compute(args, scene, ready, folder, (stop, &pace));
-        running.store(false, Ordering::Relaxed);
-        // It can be looked at until it is enough.
-        let complete = result.as_ref().err().is_none_or(Failure::is_unreliable);
-        while complete && !stop.load(Ordering::Relaxed) {
-            std::thread::sleep(Duration::from_millis(100));
-        }
-        done.store(true, Ordering::Relaxed);
-        result
-    })
+    let serving = view::begin(folder, &pace, stop)?;
+    let result = compute(args, scene, ready, folder, (stop, &pace));
+    serving.run_is_over();
+    // It can be looked at until it is enough.
+    if result.as_ref().err().is_none_or(Failure::is_unreliable) {
+        view::until(stop);
+    }
+    result
 }
 
 fn compute<S: Space<D, N>, const D: usize, const N: usize>(

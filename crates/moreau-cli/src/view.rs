@@ -3,10 +3,10 @@
 use crate::failure::{Failure, say};
 use crate::progress;
 use moreau_view::recording::Recording;
-use moreau_view::serve::{Order, Viewer};
+use moreau_view::serve::{Order, Serving, Viewer};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Arguments of `moreau view`.
@@ -24,17 +24,26 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     // What is wrong with it is said here rather than in the browser.
     Recording::open(&args.run).map_err(Failure::file)?;
     let stop = progress::stop_on_ctrl_c()?;
-    let mut viewer = Viewer::listen(&args.run, args.port).map_err(Failure::file)?;
+    let viewer = Viewer::listen(&args.run, args.port).map_err(Failure::file)?;
     say(&format!("open {}\nCtrl-C ends\n", viewer.url()))?;
-    viewer.serve(stop, &AtomicBool::new(false), |_| {});
+    let _serving = viewer.start(false, |_| {}).map_err(Failure::file)?;
+    until(stop);
     Ok(())
 }
 
-/// Begins to serve a run that is about to begin; gives the server and tells where it is.
-pub(crate) fn begin(folder: &Path) -> Result<Viewer, Failure> {
+/// Begins to serve a run that is about to begin, and prints its address. Orders go to `pace` and `stop`.
+pub(crate) fn begin(folder: &Path, pace: &Arc<Pace>, stop: &'static AtomicBool) -> Result<Serving, Failure> {
     let viewer = Viewer::listen(folder, 0).map_err(Failure::file)?;
     say(&format!("open {}\n", viewer.url()))?;
-    Ok(viewer)
+    let pace = pace.clone();
+    viewer.start(true, move |order| pace.order(order, stop)).map_err(Failure::file)
+}
+
+/// Waits until `stop` is set.
+pub(crate) fn until(stop: &AtomicBool) {
+    while !stop.load(Ordering::Relaxed) {
+        std::thread::sleep(Duration::from_millis(100));
+    }
 }
 
 /// Whether a run may take its next step.
