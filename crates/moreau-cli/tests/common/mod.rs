@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test program takes what it needs")]
 
 pub(crate) mod problems;
+pub(crate) mod watched;
 
 use assert_cmd::cargo::cargo_bin;
 use std::collections::BTreeMap;
