@@ -176,8 +176,12 @@ fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     // Who may read a problem is the user's choice, the mask; temporary files are their owner's alone otherwise.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut beside = builder.tempfile_in(folder)?;
-    beside.write_all(bytes)?;
+    // An error of a temporary file carries its name, which the user does not know.
+    let mut beside = builder.tempfile_in(folder).map_err(|error| {
+        let text = error.to_string();
+        std::io::Error::new(error.kind(), text.split_once(" at path ").map_or(text.clone(), |(reason, _)| reason.to_owned()))
+    })?;
+    beside.as_file_mut().write_all(bytes)?;
     beside.as_file().sync_all()?;
     beside.persist(path)?;
     Ok(())

@@ -32,7 +32,7 @@ pub enum Error {
     #[error("the camera's {0} must be finite and not zero")]
     Camera(&'static str),
     /// A file could not be written.
-    #[error("{}: {source}", path.display())]
+    #[error("cannot write {}: {source}", path.display())]
     Write {
         /// The file.
         path: PathBuf,

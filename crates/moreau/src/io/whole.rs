@@ -1,5 +1,6 @@
 //! Files that appear whole or not at all: they are written beside their place and renamed.
 
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Write as _};
 use std::path::Path;
@@ -8,10 +9,15 @@ use tempfile::NamedTempFile;
 /// How names of files begin that have not got their own yet.
 const PREFIX: &str = ".moreau-";
 
+/// Returns whether a file of this name is one that has not got its own yet.
+pub fn is_temporary(name: &OsStr) -> bool {
+    name.to_string_lossy().starts_with(PREFIX)
+}
+
 /// Takes out of a folder what programs that were killed left half written.
 pub fn sweep(folder: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        if entry.file_name().to_string_lossy().starts_with(PREFIX) {
+        if is_temporary(&entry.file_name()) {
             // What cannot be removed does no harm.
             let _ = std::fs::remove_file(entry.path());
         }
@@ -36,7 +42,14 @@ pub fn beside(path: &Path) -> io::Result<NamedTempFile> {
     // Temporary files are private by default; a result is as readable as any other file under the user's umask.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder(path))
+    builder.tempfile_in(folder(path)).map_err(|error| unnamed(&error))
+}
+
+/// Returns an error without the temporary name that it carries. Callers name the file that the user knows.
+fn unnamed(error: &io::Error) -> io::Error {
+    let text = error.to_string();
+    let reason = text.split_once(" at path ").map_or(text.as_str(), |(reason, _)| reason);
+    io::Error::new(error.kind(), reason.to_owned())
 }
 
 /// Writes `parts` one after the other. The disk is not asked to sync: after the fall of the machine the file may be missing or empty.
@@ -78,6 +91,20 @@ pub fn names_to_disk(folder: &Path) -> io::Result<()> {
 
 fn filled(path: &Path, parts: &[&[u8]]) -> io::Result<NamedTempFile> {
     let mut file = beside(path)?;
-    parts.iter().try_for_each(|part| file.write_all(part))?;
+    // The file inside: errors of the outer one carry the temporary name.
+    parts.iter().try_for_each(|part| file.as_file_mut().write_all(part))?;
     Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_carry_no_temporary_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = beside(&folder.path().join("not/there/steps.csv")).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+        assert!(!error.to_string().contains(PREFIX) && !error.to_string().contains("at path"), "{error}");
+    }
 }
