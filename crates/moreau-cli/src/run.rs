@@ -96,8 +96,8 @@ struct Ready<'a, S: Space<D, N>, const D: usize, const N: usize> {
     world: World<S, D, N>,
     work: Workspace<S, D, N>,
     observers: Vec<Box<dyn Observer<S, D, N> + 'a>>,
-    /// What was done before.
-    before: Summary,
+    /// The summary of the steps before, of a run that goes on.
+    before: Option<Summary>,
     /// The scene as it is kept.
     text: String,
 }
@@ -110,11 +110,11 @@ fn begin<S: Space<D, N>, const D: usize, const N: usize>(
     folder: &Path,
     from: Option<&Checkpoint>,
 ) -> Result<(), Failure> {
-    let (mut work, mut before) = (Workspace::default(), Summary::default());
+    let (mut work, mut before) = (Workspace::default(), None);
     let _claim = if from.is_none() { claim(folder)? } else { None };
     if let Some(checkpoint) = from {
         checkpoint.restore(&mut world, &mut work).map_err(Failure::scene)?;
-        before = checkpoint.summary.clone();
+        before = Some(checkpoint.summary.clone());
     } else if let Some(file) = &args.scene {
         prepare(folder, file)?;
     }

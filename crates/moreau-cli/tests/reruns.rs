@@ -85,16 +85,17 @@ fn a_second_run_replaces_the_first() {
     // What the second run does not write is not left from the first.
     place.moreau(&["run", "ten.toml", "--out", "same", "--set", "output.kinds=[]"]).fine();
     let files: Vec<String> = place.all("same").into_keys().filter(|name| name != "vtk").collect();
-    assert_eq!(files, ["checkpoint-000000000020.bin", "notes.txt", "scene.toml", "summary.json"]);
+    assert_eq!(files, ["checkpoint-000000000000.bin", "checkpoint-000000000020.bin", "notes.txt", "scene.toml", "summary.json"]);
 }
 
 #[test]
 fn a_run_leaves_no_files_but_its_own() {
     let place = Place::with("ten.toml", TEN);
     place.moreau(&["run", "ten.toml", "--set", "output.every=0"]).fine();
-    let files = ["checkpoint-000000000020.bin", "scene.toml", "steps.csv", "summary.json", "trajectory.h5"]
-        .map(|file| format!("out/ten/{file}"));
-    let expected = [vec!["out".to_owned(), "out/ten".to_owned()], files.to_vec(), vec!["ten.toml".to_owned()]].concat();
+    let checkpoints = ["checkpoint-000000000000.bin", "checkpoint-000000000020.bin"];
+    let others = ["scene.toml", "steps.csv", "summary.json", "trajectory.h5"];
+    let files = [&checkpoints[..], &others].concat().into_iter().map(|file| format!("out/ten/{file}"));
+    let expected = [vec!["out".to_owned(), "out/ten".to_owned()], files.collect(), vec!["ten.toml".to_owned()]].concat();
     assert_eq!(place.all(".").into_keys().collect::<Vec<_>>(), expected);
     assert_eq!(place.read("ten.toml"), TEN);
 }

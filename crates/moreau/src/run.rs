@@ -35,8 +35,8 @@ pub struct Outcome {
 pub struct Task<'a> {
     /// How many steps.
     pub steps: u64,
-    /// What it came to before, where it goes on from a checkpoint: observers have seen the start then.
-    pub before: Summary,
+    /// Summary of the steps before, of a run that goes on from a checkpoint, at step 0 as well: observers have seen the start then.
+    pub before: Option<Summary>,
     /// Where it is kept: the scene as TOML, and the folder's checkpoints.
     pub kept: Option<(&'a str, Checkpoints)>,
 }
@@ -58,8 +58,8 @@ pub struct Unwritten {
     pub outcome: Outcome,
 }
 
-/// Advances `world` by some steps, shows each frame to the observers and each record to `progress`, and keeps checkpoints; ends early, with
-/// what was computed kept, when `stop` is set.
+/// Advances `world` by some steps, shows each frame to the observers and each record to `progress`, and keeps checkpoints, of which the
+/// first is of the start; ends early, with what was computed kept, when `stop` is set.
 ///
 /// # Errors
 /// Where an observer cannot write. A step that fails is no error but an [`End`].
@@ -71,12 +71,18 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
     stop: &AtomicBool,
     mut progress: impl FnMut(&StepRecord),
 ) -> Result<Outcome, Box<Unwritten>> {
-    let Task { steps, before: mut summary, kept } = task;
+    let Task { steps, before, kept } = task;
     let mut keeper = kept.map(|(scene, checkpoints)| Keeper { scene, checkpoints });
     let mut audience = Audience { observers, error: None, seconds: 0.0, since: Instant::now() };
     let mut end = End::Done;
-    if summary.steps() == 0 {
+    let is_new = before.is_none();
+    let mut summary = before.unwrap_or_default();
+    if is_new {
         audience.see(&Frame { world, contacts: work.contacts(), record: None });
+        // A run that ends before its next checkpoint, whatever ends it, goes on from this one.
+        if let Some(keeper) = keeper.as_mut().filter(|keeper| keeper.checkpoints.due_at_bound(world.steps)) {
+            keeper.keep(&mut audience, &mut summary, world, work);
+        }
     }
     for _ in 0..steps {
         if audience.error.is_some() {
@@ -108,7 +114,7 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
     }
     // After a step that failed the world is not what it was before it.
     let whole = matches!(end, End::Done | End::Interrupted);
-    if let Some(keeper) = keeper.as_mut().filter(|keeper| whole && keeper.checkpoints.due_at_end(world.steps)) {
+    if let Some(keeper) = keeper.as_mut().filter(|keeper| whole && keeper.checkpoints.due_at_bound(world.steps)) {
         keeper.keep(&mut audience, &mut summary, world, work);
     }
     audience.finish();

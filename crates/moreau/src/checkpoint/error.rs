@@ -18,7 +18,7 @@ pub enum CheckpointError {
     },
     /// The folder of the run has none.
     #[error(
-        "{}: there is no checkpoint to go on from; a run keeps one at its end and as often as the scene's [checkpoint] says",
+        "{}: there is no checkpoint to go on from; a run keeps one at its start, at its end, and as often as the scene's [checkpoint] says",
         path.display()
     )]
     None {

@@ -22,9 +22,11 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// One each `every` steps, if that is not zero, and each `seconds` of wall-clock time, if that is not zero.
+    /// One each `every` steps, if that is not zero, and each `seconds` of wall-clock time, if that is not zero; where either is not zero, also
+    /// one at the start and one at the end.
     pub fn new(folder: &Path, every: u64, seconds: f64) -> Self {
-        let after = Duration::try_from_secs_f64(seconds).ok().filter(|after| !after.is_zero());
+        // A time that no clock reaches leaves those at the start and at the end.
+        let after = (seconds > 0.0).then(|| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
         Self { folder: folder.to_owned(), every, after, last: Instant::now(), saved: None }
     }
 
@@ -33,8 +35,8 @@ impl Checkpoints {
         (self.every > 0 && step.is_multiple_of(self.every)) || self.after.is_some_and(|after| self.last.elapsed() >= after)
     }
 
-    /// Whether there are any, and this step, after which the run ends, has none yet.
-    pub(crate) fn due_at_end(&self, step: u64) -> bool {
+    /// Returns whether checkpoints are kept at all and this step, at which the run begins or ends, has none yet.
+    pub(crate) fn due_at_bound(&self, step: u64) -> bool {
         (self.every > 0 || self.after.is_some()) && self.saved != Some(step)
     }
 

@@ -359,7 +359,8 @@ pub struct GuardSpec {
 pub struct CheckpointSpec {
     /// Steps from one to the next; 0 for none by steps.
     pub every: u64,
-    /// Seconds of the clock on the wall from one to the next; 0 for none by the clock. Where one of the two is not 0, there is also one at the end.
+    /// Seconds of the clock on the wall from one to the next; 0 for none by the clock. Where one of the two is not 0, there is also one at the start
+    /// and one at the end; 1e308 is for these two alone.
     pub seconds: f64,
 }
 

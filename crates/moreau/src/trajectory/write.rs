@@ -55,12 +55,22 @@ impl TrajectoryWriter {
     /// # Errors
     /// Where it cannot be made.
     pub fn create(path: &Path, header: &Header, precision: Precision) -> Result<Self, TrajectoryError> {
-        let wrong = |error: Error| TrajectoryError::new(path, error);
-        layout(header, precision).write(path).map_err(wrong)?;
+        Self::create_at(path, path, header, precision)
+    }
+
+    /// As [`Self::create`], in the file `at` that errors call `path`.
+    fn create_at(at: &Path, path: &Path, header: &Header, precision: Precision) -> Result<Self, TrajectoryError> {
+        let is_new = !at.exists();
+        let wrong = |error: Error| {
+            // Half a head is of no use to anybody; a file that was there before is not ours to remove.
+            let _ = if is_new { std::fs::remove_file(at) } else { Ok(()) };
+            TrajectoryError::new(path, error)
+        };
+        layout(header, precision).write(at).map_err(wrong)?;
         // Nothing is forced to the disk before the end: a run that is killed loses no more than what waits here, and a machine that goes down
         // may lose the file.
         let access = FileAccessProperties::new().with_sync_policy(SyncPolicy::OnClose);
-        let file = File::open_rw_with_options(path, access).map_err(wrong)?;
+        let file = File::open_rw_with_options(at, access).map_err(wrong)?;
         Ok(Self { path: path.to_owned(), file, precision, contacts: 0, single: Vec::new() })
     }
 
@@ -74,7 +84,7 @@ impl TrajectoryWriter {
         let rows = old.rows_until(last)?;
         let frames = old.steps().partition_point(|&step| step <= last);
         let due = last.checked_rem(old.header().every).map(|since| last - since);
-        if rows.last().is_none_or(|row| row[0] != last as f64) || old.steps()[..frames].last().copied() != due {
+        if rows.last().map_or(0.0, |row| row[0]) != last as f64 || old.steps()[..frames].last().copied() != due {
             return Err(TrajectoryError::new(
                 path,
                 format!("it lacks records or frames up to step {last}; move it away, and the run begins it anew from here"),
@@ -82,7 +92,7 @@ impl TrajectoryWriter {
         }
         let wrong = |error: &dyn std::fmt::Display| TrajectoryError::new(path, error);
         let beside = whole::beside(path).map_err(|error| wrong(&error))?.into_temp_path();
-        let mut new = Self::create(&beside, &Header { every, ..old.header().clone() }, precision)?;
+        let mut new = Self::create_at(&beside, path, &Header { every, ..old.header().clone() }, precision)?;
         let mut batch = Batch { rows, ..Batch::default() };
         for i in 0..frames {
             batch.push(old.frame(i)?);
@@ -95,7 +105,6 @@ impl TrajectoryWriter {
         new.sync()?;
         drop(old);
         beside.persist(path).map_err(|refused| wrong(&refused.error))?;
-        path.clone_into(&mut new.path);
         Ok(new)
     }
 
