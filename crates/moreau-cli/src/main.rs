@@ -64,7 +64,11 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let command = Cli::parse().command;
+    if let Err(failure) = progress::outlive_file_limits() {
+        return failure.report();
+    }
+    let outcome = match command {
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::run(&args),
         Command::View(args) => view::run(&args),

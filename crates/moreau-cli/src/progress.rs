@@ -4,6 +4,8 @@ use crate::Failure;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use moreau::step::StepRecord;
 use std::io::IsTerminal;
+#[cfg(unix)]
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by Ctrl-C, and on Unix by the signals that ask a program to end (SIGTERM) or tell that its terminal is gone (SIGHUP).
@@ -18,6 +20,21 @@ pub(crate) fn stop_on_ctrl_c() -> Result<&'static AtomicBool, Failure> {
     };
     ctrlc::set_handler(handler).map_err(|error| Failure::file(format!("cannot listen to Ctrl-C: {error}")))?;
     Ok(&STOP)
+}
+
+/// Makes a write beyond the limit of file sizes (`ulimit -f`) an error of that write. Unless the signal that comes with it is caught, it ends
+/// the program, without a message and with files half written.
+#[cfg(unix)]
+pub(crate) fn outlive_file_limits() -> Result<(), Failure> {
+    // Nobody looks at the flag: the write says what is wrong.
+    let caught = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    caught.map(drop).map_err(|error| Failure::file(format!("cannot catch SIGXFSZ: {error}")))
+}
+
+/// Systems without signals answer the write.
+#[cfg(not(unix))]
+pub(crate) fn outlive_file_limits() -> Result<(), Failure> {
+    Ok(())
 }
 
 /// A bar over `steps` steps, hidden if `quiet` or if nobody looks.
