@@ -20,7 +20,7 @@ echo '|---|---|---|---|---|---|---|---|---|---|---|'
 for balls in 1000 10000 100000 1000000; do
     width=$(python3 -c "print(repr(0.0021 * ($balls / 12) ** 0.5))")
     for threads in 1 2; do
-        target/release/moreau run scenes/box-of-balls.toml --quiet --threads "$threads" --out "$out/$balls" --set time.steps=200 \
+        target/release/moreau run scenes/box-of-balls.toml --quiet --threads "$threads" --out "$out/$balls" --force --set time.steps=200 \
             --set 'default_law={ coulomb = { friction = 0.3 } }' --set "containers.0.max=[$width, $width, 0.06]" \
             --set "generate.0.count=$balls" --set "generate.0.lattice.max=[$width, $width, 0.06]" --set 'output.kinds=["steps"]'
         python3 - "$out/$balls/summary.json" "$balls" "$threads" <<'PY'

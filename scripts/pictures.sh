@@ -9,8 +9,8 @@ cargo build --release --quiet
 moreau=${CARGO_TARGET_DIR:-target}/release/moreau
 shoot() { # SCENE PICTURE WORDS…
     local out=$work/$(basename "$1" .toml)
-    [ -f "$out/trajectory.h5" ] || "$moreau" run "scenes/$1" --out "$out" --quiet --set 'output.kinds=["trajectory"]'
-    "$moreau" render "$out" --out "docs/figures/$2" "${@:3}"
+    [ -f "$out/trajectory.h5" ] || "$moreau" run "scenes/$1" --out "$out" --force --quiet --set 'output.kinds=["trajectory"]'
+    "$moreau" render "$out" --out "docs/figures/$2" --force "${@:3}"
 }
 shoot paper/sliding-ball.toml sliding-ball.png --size 640x480
 shoot paper/sedimentation.toml sedimentation.png --size 800x600 --colour speed --time 0.02

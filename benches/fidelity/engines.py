@@ -58,7 +58,7 @@ class Engines:
         steps = round(experiment.duration / step)
         every = max(1, round(experiment.sample / step))
         changes = settings | {"time.step": repr(step), "time.steps": steps, "output.every": every}
-        words = [self.moreau, "run", path, "--out", out, "--quiet", "--threads", "1"]
+        words = [self.moreau, "run", path, "--out", out, "--force", "--quiet", "--threads", "1"]
         for key, value in changes.items():
             words += ["--set", f"{key}={value}"]
         child = subprocess.Popen([*map(str, words)], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)

@@ -110,7 +110,8 @@ def moreau(args, budget, scene, name):
     out = args.work / f"moreau-{name}"
     file = out.with_suffix(".toml")
     file.write_text(scene)
-    child = subprocess.Popen([args.moreau, "run", file, "--out", out, "--quiet", "--threads", "1"], stderr=subprocess.PIPE, text=True)
+    words = [args.moreau, "run", file, "--out", out, "--force", "--quiet", "--threads", "1"]
+    child = subprocess.Popen(words, stderr=subprocess.PIPE, text=True)
     try:
         child.wait(budget)
     except subprocess.TimeoutExpired:

@@ -149,7 +149,8 @@ def judge(folder, landed):
 def run(program, folder, name, text, landed):
     path = folder / f"{name}.toml"
     path.write_text(text)
-    done = subprocess.run([program, "run", path, "--out", folder / name, "--quiet", "--threads", "1"], capture_output=True, text=True)
+    words = [program, "run", path, "--out", folder / name, "--force", "--quiet", "--threads", "1"]
+    done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode != 0:
         return f"{name}: {done.stderr.strip()}", False
     speed, change, worst = judge(folder / name, landed)

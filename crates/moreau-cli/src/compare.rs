@@ -1,7 +1,8 @@
 //! `moreau compare`: the paper's tables and its figure 4.
 
 use crate::chart::{Chart, Curve, Form, semilog};
-use crate::failure::{Failure, say, writable, write_whole};
+use crate::failure::{Failure, say, write_whole};
+use crate::outputs::Replace;
 use crate::rho::{self, Study};
 use crate::table::aligned;
 use crate::{names, progress, scene};
@@ -44,6 +45,8 @@ pub(crate) struct Args {
     /// Draw error against sweep at the chosen step (the paper's figure 4), as .svg, .png or .pdf
     #[arg(long)]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    replace: Replace,
     /// Show instead how the sweeps depend on ρ: values relative to the automatic one, such as 0.2,0.4,1
     #[arg(long, value_delimiter = ',', value_parser = names::positive)]
     rho: Vec<f64>,
@@ -56,7 +59,7 @@ pub(crate) struct Args {
 pub(crate) fn compare(args: &Args) -> Result<(), Failure> {
     let scene = scene::load(&args.scene, &args.sets)?;
     for path in args.csv.iter().chain(&args.plot) {
-        writable(path)?;
+        args.replace.allows(path)?;
     }
     args.plot.as_deref().map(Form::of).transpose()?;
     let world = scene::build(&scene)?;

@@ -1,6 +1,7 @@
 //! `moreau convert`: problem files from one format into the other.
 
-use crate::failure::{Failure, say, writable};
+use crate::failure::{Failure, say};
+use crate::outputs::Replace;
 use crate::problem::{self, Format};
 use moreau::solve::files::{self, Equations, ProblemFile};
 use std::path::PathBuf;
@@ -12,6 +13,8 @@ pub(crate) struct Args {
     from: PathBuf,
     /// The file to write: .hdf5 or .h5 for FCLIB's format, .dat or .txt for the text of Siconos
     to: PathBuf,
+    #[command(flatten)]
+    replace: Replace,
 }
 
 /// Writes the problem of one file into another and reads it back.
@@ -27,7 +30,7 @@ pub(crate) fn convert(args: &Args) -> Result<(), Failure> {
         return Err(Failure::usage(format!("{to}: this is the file to read, which would be overwritten; give another name")));
     }
     let problem = problem::read(&args.from)?;
-    writable(&args.to)?;
+    args.replace.allows(&args.to)?;
     let lost = files::write(&args.to, &problem).map_err(Failure::file)?;
     let back = problem::read(&args.to)?;
     back.same_as(&problem).map_err(|what| Failure::file(format!("{to}: does not read back as it was written: {what}")))?;

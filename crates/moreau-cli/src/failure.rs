@@ -13,7 +13,7 @@
 
 use moreau::io::whole;
 use std::fmt::Display;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -95,13 +95,21 @@ pub(crate) fn say(text: &str) -> Result<(), Failure> {
 /// What went wrong with `path`, without the temporary names that an error may carry.
 fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {
     let reason = std::io::Error::from(error.kind());
-    Failure::file(format!("cannot write {}: {reason}; give a place in a folder that exists and can be written", path.display()))
+    let advice = match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "make room there, or write to another disk",
+        ErrorKind::FileTooLarge => "raise the limit of file sizes (ulimit -f)",
+        _ => "give a place in a folder that exists and can be written",
+    };
+    Failure::file(format!("cannot write {}: {reason}; {advice}", path.display()))
 }
 
 /// Makes sure, before long work, that a file can be written at its end.
 pub(crate) fn writable(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::file(format!("cannot write {}: it is a folder; give the name of a file", path.display())));
+    }
+    if path.exists() && !path.is_file() {
+        return Err(Failure::file(format!("cannot write {}: it is not a plain file; give the name of one", path.display())));
     }
     whole::beside(path).map(drop).map_err(|error| cannot_write(path, &error))
 }

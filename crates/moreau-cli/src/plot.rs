@@ -2,6 +2,7 @@
 
 use crate::chart::{Chart, Curve, Form, figure, linear, semilog};
 use crate::failure::{Failure, say, write_whole};
+use crate::outputs::Replace;
 use moreau_view::recording::Recording;
 use std::path::PathBuf;
 
@@ -16,6 +17,8 @@ pub(crate) struct Args {
     /// The figure, .svg, .png or .pdf [default: plot.svg in that folder]
     #[arg(long)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    replace: Replace,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -54,8 +57,8 @@ impl What {
 /// Draws and writes.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let run = Recording::open(&args.run).map_err(Failure::file)?;
-    let out = args.out.clone().unwrap_or_else(|| args.run.join("plot.svg"));
-    let form = Form::of(&out)?;
+    let form = args.out.as_deref().map_or(Ok(Form::Svg), Form::of)?;
+    let out = args.replace.in_run(&args.run, "plot.svg", args.out.as_deref())?;
     if run.column("step").is_empty() {
         return Err(Failure::file(format!("{}: the trajectory has no step yet", args.run.display())));
     }

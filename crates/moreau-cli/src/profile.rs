@@ -3,7 +3,8 @@
 mod curves;
 
 use crate::chart::{Form, profile as draw};
-use crate::failure::{Failure, say, writable, write_whole};
+use crate::failure::{Failure, say, write_whole};
+use crate::outputs::Replace;
 use crate::solve::How;
 use crate::table::aligned;
 use crate::{names, problem, progress};
@@ -30,6 +31,8 @@ pub(crate) struct Args {
     /// The folder for results.csv and the profiles
     #[arg(long)]
     out: PathBuf,
+    #[command(flatten)]
+    replace: Replace,
     /// What the figures are written as
     #[arg(long, value_enum, default_value = "svg")]
     figures: Form,
@@ -57,7 +60,7 @@ type Methods = (GlobalMethod, LocalMethod);
 /// Solves all and writes tables and figures.
 pub(crate) fn profile(args: &Args) -> Result<(), Failure> {
     let files = problem_files(&args.folder)?;
-    prepare(&args.out, args.figures)?;
+    prepare(args)?;
     let methods: Vec<Methods> = args.global.iter().flat_map(|&g| args.local.iter().map(move |&l| (g, l))).collect();
     let stop = progress::stop_on_ctrl_c()?;
     let bar = progress::bar_of("solves", (files.len() * methods.len()) as u64, args.quiet);
@@ -124,10 +127,11 @@ fn profile_file(what: &str, ending: &str) -> String {
 }
 
 /// Makes the folder and finds out whether all can be written, before the long work.
-fn prepare(out: &Path, figures: Form) -> Result<(), Failure> {
+fn prepare(args: &Args) -> Result<(), Failure> {
+    let out = &args.out;
     std::fs::create_dir_all(out)
         .map_err(|error| Failure::file(format!("cannot write into {}: {error}; choose another --out", out.display())))?;
-    outputs(figures).try_for_each(|name| writable(&out.join(name)))
+    outputs(args.figures).try_for_each(|name| args.replace.allows(&out.join(name)))
 }
 
 /// Solves one problem by all methods.

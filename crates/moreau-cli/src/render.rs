@@ -1,6 +1,7 @@
 //! `moreau render`.
 
 use crate::failure::{Failure, say};
+use crate::outputs::Replace;
 use moreau_view::picture::movie::Movie;
 use moreau_view::picture::{Camera, Error};
 use moreau_view::recording::Recording;
@@ -16,6 +17,8 @@ pub(crate) struct Args {
     /// [default: picture.png in that folder]
     #[arg(long)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    replace: Replace,
     /// The time of the picture, s; the frame that is nearest is taken [default: the last]
     #[arg(long)]
     time: Option<f64>,
@@ -65,7 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let colour = if matches!(args.colour, By::Speed) { Colour::Speed } else { Colour::Material };
     let camera = Camera { direction, ..Camera::default() };
     let look = Look { size: args.size, chains: args.chains, colour, camera, window: None };
-    let out = args.out.clone().unwrap_or_else(|| args.run.join("picture.png"));
+    let out = args.replace.in_run(&args.run, "picture.png", args.out.as_deref())?;
     let is_movie = out.extension().is_some_and(|ending| ["gif", "mp4"].iter().any(|movie| ending.eq_ignore_ascii_case(movie)));
     let count = if is_movie { movie(args, &recording, look, &out)? } else { picture(args, &recording, &look, &out)? };
     say(&format!("{}: {count}\n", out.display()))

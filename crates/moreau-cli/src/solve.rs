@@ -2,7 +2,8 @@
 
 mod show;
 
-use crate::failure::{Failure, say, writable};
+use crate::failure::{Failure, say};
+use crate::outputs::Replace;
 use crate::problem::{self, Format, Solved};
 use crate::{names, progress};
 use moreau::solve::files::{self, Iterate, ProblemFile};
@@ -37,6 +38,8 @@ pub(crate) struct Args {
     /// Write the problem with the solution to an .hdf5 file (of a single problem)
     #[arg(long)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    replace: Replace,
 }
 
 /// How long and how far: what `solve` and `profile` share.
@@ -79,7 +82,7 @@ enum Start {
 /// Solves file by file; one that is wrong does not stop the others.
 pub(crate) fn solve(args: &Args) -> Result<(), Failure> {
     if let Some(path) = &args.out {
-        check_out(path, args.files.len())?;
+        check_out(path, args.files.len(), args.replace)?;
     }
     let stop = progress::stop_on_ctrl_c()?;
     let bar = progress::bar_of("problems", args.files.len() as u64, args.files.len() < 2);
@@ -129,13 +132,13 @@ fn other_kind(path: &Path) -> bool {
 }
 
 /// Finds out before the solve whether the answer can be written.
-fn check_out(path: &Path, files: usize) -> Result<(), Failure> {
+fn check_out(path: &Path, files: usize, replace: Replace) -> Result<(), Failure> {
     let name = path.display();
     if files > 1 {
         return Err(Failure::usage(format!("--out {name} has place for one problem, and {files} are to be solved")));
     }
     match problem::format(path) {
-        Some(Format::Fclib) => writable(path),
+        Some(Format::Fclib) => replace.allows(path),
         Some(Format::Text) => {
             let other = path.with_extension("hdf5");
             let what = "the text format has no place for a solution";

@@ -52,7 +52,7 @@ fn cannot_be_replaced(taken: &str) {
         fs::remove_file(&path).unwrap();
         fs::create_dir(&path).unwrap();
     }
-    place.refuses(&["run", "ten.toml", "--out", "old", "--steps", "3"], 1, &["cannot write", taken]);
+    place.refuses(&["run", "ten.toml", "--out", "old", "--steps", "3", "--force"], 1, &["cannot write", taken]);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn a_folder_without_permission_stays_empty() {
 fn a_run_never_overwrites_the_scene_that_it_reads() {
     // The folder's scene.toml is the scene with all defaults, without the comments of the one who wrote it.
     let place = Place::with("scene.toml", &format!("# Mine, with a remark.\n{TEN}"));
-    place.moreau(&["run", "scene.toml", "--out", "."]);
+    place.refuses(&["run", "scene.toml", "--out", "."], 1, &["cannot write into .: it holds scene.toml"]);
     assert!(place.read("scene.toml").starts_with("# Mine, with a remark."), "the scene was overwritten");
 }
 

@@ -140,7 +140,7 @@ fn two_runs_do_not_write_into_one_folder() {
     assert_eq!(running.end().0, Some(130));
     let steps = place.summary("mine")["steps"].as_u64().unwrap();
     assert_eq!(place.read("mine/steps.csv").lines().count() as u64, 1 + steps);
-    place.moreau(&["run", "ten.toml", "--out", "mine", "--quiet"]).fine();
+    place.moreau(&["run", "ten.toml", "--out", "mine", "--quiet", "--force"]).fine();
 }
 
 #[test]

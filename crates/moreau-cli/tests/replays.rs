@@ -101,8 +101,10 @@ fn held_contacts_have_no_place_in_the_files() {
 #[test]
 fn at_most_twenty_problems_are_kept_and_old_ones_go() {
     let place = Place::with("ten.toml", TEN);
+    place.moreau(&["run", "ten.toml", "--steps", "1"]).fine();
     place.write("out/ten/failed-step-999.hdf5", "of an earlier run");
-    let words = [&DUMP[..4], &["--steps", "60", "--set", "solver.max_sweeps=1", "--set", "solver.tolerance=1e-12"]].concat();
+    let words =
+        [&DUMP[..4], &["--force", "--steps", "60", "--set", "solver.max_sweeps=1", "--set", "solver.tolerance=1e-12"]].concat();
     let out = place.moreau(&words).fine();
     let names = dumped(&place, "out/ten");
     assert!(names.len() == 20 && out.contains("of the first 20 that failed"), "{out}");
@@ -119,7 +121,7 @@ fn what_cannot_be_written_ends_a_run_with_its_summary() {
     // A folder in the place of the file is found when the file is to be written, in the middle of the run.
     std::fs::remove_file(place.path("out/ten").join(&name)).unwrap();
     std::fs::create_dir(place.path("out/ten").join(&name)).unwrap();
-    let ran = place.moreau(&DUMP);
+    let ran = place.moreau(&[&DUMP[..], &["--force"]].concat());
     ran.fails(1, &[&name, "cannot be written", &format!("the {first} steps before are kept in out/ten")]);
     assert_eq!(place.summary("out/ten")["steps"], first);
     assert_eq!(place.read("out/ten/steps.csv").lines().count() as u64, 1 + first);

@@ -120,7 +120,7 @@ fn fifty_kills_change_no_bit() {
     while kills < 50 {
         let begun = checkpoint::newest(&place.path("killed")).map(|(checkpoint, _)| checkpoint.steps());
         let threads = ["1", "2", "3", "8"][(random.next_u64() % 4) as usize];
-        let what: &[&str] = if begun.is_ok() { &["--resume", "killed"] } else { &["busy.toml", "--out", "killed"] };
+        let what: &[&str] = if begun.is_ok() { &["--resume", "killed"] } else { &["busy.toml", "--out", "killed", "--force"] };
         let words = [&["run"], what, &["--quiet", "--threads", threads]].concat();
         // All lives together are about three quarters of what the whole run took.
         let part = (random.next_u64() % 1000) as f64 / 1000.0;

@@ -110,13 +110,13 @@ fn only_the_outputs_that_are_asked_for_are_written() {
         place.moreau(&["run", "ten.toml", "--set", set, "--set", "checkpoint.seconds=0", "--out", out]).fine();
         place.all(out).into_keys().filter(|name| !name.contains('/')).collect::<Vec<_>>()
     };
-    assert_eq!(files("output.kinds=[\"steps\"]", "a"), ["scene.toml", "steps.csv", "summary.json"]);
-    assert_eq!(files("output.kinds=[\"vtk\"]", "b"), ["scene.toml", "summary.json", "vtk"]);
-    assert_eq!(files("output.every=0", "c"), ["scene.toml", "steps.csv", "summary.json", "trajectory.h5"]);
-    assert_eq!(files("output.kinds=[\"trajectory\"]", "f"), ["scene.toml", "summary.json", "trajectory.h5"]);
-    let measured = ["measures.csv", "scene.toml", "summary.json"];
+    assert_eq!(files("output.kinds=[\"steps\"]", "a"), ["run.json", "scene.toml", "steps.csv", "summary.json"]);
+    assert_eq!(files("output.kinds=[\"vtk\"]", "b"), ["run.json", "scene.toml", "summary.json", "vtk"]);
+    assert_eq!(files("output.every=0", "c"), ["run.json", "scene.toml", "steps.csv", "summary.json", "trajectory.h5"]);
+    assert_eq!(files("output.kinds=[\"trajectory\"]", "f"), ["run.json", "scene.toml", "summary.json", "trajectory.h5"]);
+    let measured = ["measures.csv", "run.json", "scene.toml", "summary.json"];
     assert_eq!(files("output.kinds=[\"measures\"]", "e"), measured);
-    assert_eq!(files("output.kinds=[]", "d"), ["scene.toml", "summary.json"]);
+    assert_eq!(files("output.kinds=[]", "d"), ["run.json", "scene.toml", "summary.json"]);
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn a_person_gets_a_few_plain_lines() {
         assert!(out.contains(words), "{out}");
     }
     assert!(!out.contains(['\x1b', '\r']), "control codes in a pipe: {out:?}");
-    assert_eq!(place.moreau(&["run", "ten.toml", "--quiet"]).fine(), "");
+    assert_eq!(place.moreau(&["run", "ten.toml", "--quiet", "--force"]).fine(), "");
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn a_solve_that_fails_counts_or_stops_as_the_scene_says() {
     let unconverged = place.summary("out/ten")["unconverged_steps"].as_u64().unwrap();
     assert!(unconverged > 0 && out.contains(&format!("{unconverged} steps did NOT converge")), "{out}");
 
-    let ran = place.moreau(&[&words[..], &["solver.on_failure=stop", "--quiet"]].concat());
+    let ran = place.moreau(&[&words[..], &["solver.on_failure=stop", "--quiet", "--force"]].concat());
     ran.fails(4, &["did not converge", "solver.max_sweeps", "steps before are kept in out/ten"]);
     let steps = place.summary("out/ten")["steps"].as_u64().unwrap();
     assert!(steps < 20 && place.read("out/ten/steps.csv").lines().count() as u64 == 1 + steps);

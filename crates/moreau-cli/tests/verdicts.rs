@@ -81,13 +81,13 @@ fn strict_ends_with_a_code_of_its_own() {
     ran.fails(6, &["the run is not to be relied on: 0.190 J were created"]);
     assert!(place.path("out/kane/trajectory.h5").exists() && same_everywhere(&place, "out/kane", false).len() == 1);
     // Quiet is not silent.
-    let ran = place.moreau(&["run", "kane.toml", "--quiet"]);
+    let ran = place.moreau(&["run", "kane.toml", "--quiet", "--force"]);
     assert!(ran.code == Some(0) && ran.out.is_empty() && ran.err.contains("the run is not to be relied on: 0.190 J"), "{ran:?}");
     place.write("rest.toml", REST);
     let said = place.moreau(&["run", "rest.toml", "--strict"]).fine();
     assert!(said.ends_with("\nverdict: all checks passed\n"), "{said}");
     assert_eq!(same_everywhere(&place, "out/rest", true), [""; 0]);
-    assert_eq!(place.moreau(&["run", "rest.toml", "--strict", "--quiet"]).fine(), "");
+    assert_eq!(place.moreau(&["run", "rest.toml", "--strict", "--quiet", "--force"]).fine(), "");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! `moreau run --convergence`: the scene at its step, at half of it, at a quarter.
 
-use super::folder::claim;
-use crate::failure::{Failure, say, write_whole};
+use super::folder::{claim, leave, numbered, prepare_beside_a_run};
+use crate::failure::{Failure, say, writable, write_whole};
 use crate::table::aligned;
 use crate::{progress, scene};
 use moreau::convergence::{ConvergenceError, Level, study};
@@ -11,13 +11,19 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// Runs the study, prints its table and writes convergence.csv.
-pub(super) fn run(scene: &Scene, halvings: u32, threads: usize, quiet: bool, folder: &Path) -> Result<(), Failure> {
+pub(super) fn run(scene: &Scene, halvings: u32, args: &super::Args, folder: &Path) -> Result<(), Failure> {
+    let quiet = args.quiet;
     let stop = progress::stop_on_ctrl_c()?;
+    let new = if args.new { Some(numbered(folder)?) } else { None };
+    let folder = new.as_deref().unwrap_or(folder);
+    let was_there = new.is_none() && folder.exists();
     let _claim = claim(folder)?;
+    prepare_beside_a_run(folder).inspect_err(|_| leave(folder, was_there))?;
+    writable(&folder.join("convergence.csv"))?;
     let all = (0..=halvings).fold(0_u64, |all, level| all.saturating_add(scene.time.steps << level));
     let bar = progress::bar(all, quiet);
     let tick = |record: &_| progress::tick(&bar, record);
-    let levels = scene::pool(threads)?.install(|| study(scene, halvings, scene::available_memory(), stop, tick));
+    let levels = scene::pool(super::threads(args))?.install(|| study(scene, halvings, scene::available_memory(), stop, tick));
     bar.finish_and_clear();
     let levels = levels.map_err(|error| match error {
         ConvergenceError::Scene(error) => Failure::scene(error),

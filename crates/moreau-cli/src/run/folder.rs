@@ -1,18 +1,21 @@
-//! The folder of a run: what is taken out of it before, and who writes what into it.
+//! The folder of a run: which one it is, who may write into it, and what is taken out of it before.
+//!
+//! A run begins in an empty folder, which it marks (`marker.rs`). One that holds anything is refused. With `--force` the files that its marker
+//! lists are removed first; a folder without a marker is refused all the same.
 
-use super::resume;
 use crate::failure::{Failure, writable};
-use moreau::checkpoint::{self, Mark};
-use moreau::observe::{FailedProblems, MeasuresCsv, Observer, StepsCsv, TrajectoryOutput, VtkOutput};
-use moreau::scene::{OutputKind, Scene};
-use moreau::space::Space;
-use moreau::world::{OnFailure, World};
-use std::fs::{File, TryLockError};
+use crate::marker::{self, Marker};
+use moreau::io::whole;
+use std::fs::{self, File, TryLockError};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+
+/// Names of a folder that a message tells.
+const SHOWN: usize = 4;
 
 /// Makes the folder and claims it; see [`hold`].
 pub(super) fn claim(folder: &Path) -> Result<Option<File>, Failure> {
-    std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
+    fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?;
     hold(folder)
 }
 
@@ -30,84 +33,120 @@ fn wrong(path: &Path, reason: &dyn std::fmt::Display) -> Failure {
     Failure::file(format!("cannot write into {}: {reason}; choose another folder with --out", path.display()))
 }
 
-/// Takes an earlier run's files out of the folder: a mixture of two runs would mislead. Nothing is taken before it is
-/// sure that all can be written, and never the scene that is being run.
-pub(super) fn prepare(folder: &Path, scene: &Path) -> Result<(), Failure> {
-    let files = ["scene.toml", "summary.json", "steps.csv", "measures.csv", "trajectory.h5"].map(|file| folder.join(file));
-    for file in &files {
-        writable(file)?;
+/// Makes the first of the folders FOLDER, FOLDER-2, FOLDER-3, … that does not exist, and returns it.
+pub(super) fn numbered(folder: &Path) -> Result<PathBuf, Failure> {
+    let Some(name) = folder.file_name() else {
+        return Err(Failure::usage(format!("--new: {} has no name that a number could follow", folder.display())));
+    };
+    let above = folder.parent().filter(|above| !above.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    fs::create_dir_all(above).map_err(|error| wrong(above, &error))?;
+    let mut next = folder.to_owned();
+    for number in 2_u64.. {
+        // Of two programs that try at the same time one makes it.
+        match fs::create_dir(&next) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                let mut name = name.to_owned();
+                name.push(format!("-{number}"));
+                next = folder.with_file_name(name);
+            }
+            Err(error) => return Err(wrong(&next, &error)),
+            Ok(()) => break,
+        }
     }
-    let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if same(&files[0], scene) {
-        return Err(wrong(&files[0], &"it is the scene to run, which would be overwritten"));
+    Ok(next)
+}
+
+/// Makes a claimed folder ready for a new run of the scene in a file: empty but for what is the user's, and marked.
+pub(super) fn prepare(folder: &Path, scene: &Path, force: bool) -> Result<(), Failure> {
+    let names = names(folder);
+    if !names.is_empty() {
+        let marker = Marker::read(folder);
+        match marker.filter(|_| force) {
+            Some(marker) => clear(folder, scene, &marker)?,
+            None => return Err(refused(folder, &names, force)),
+        }
     }
+    whole::sweep(folder);
+    whole::sweep(&folder.join("vtk"));
+    Marker::new().write(folder)
+}
+
+/// Makes a claimed folder ready for one file of the program's own: it is a run's, or empty.
+pub(super) fn prepare_beside_a_run(folder: &Path) -> Result<(), Failure> {
+    let names = names(folder);
+    match Marker::read(folder) {
+        Some(_) => Ok(()),
+        None if names.is_empty() => Marker::new().write(folder),
+        None => Err(refused(folder, &names, false)),
+    }
+}
+
+/// Removes the files of a run that could not begin, and the folder unless it was there before.
+pub(super) fn undo(folder: &Path, was_there: bool) {
+    // What cannot be removed is found by its marker, which goes last.
+    if Marker::new().files(folder).iter().all(|path| fs::remove_file(path).is_ok()) {
+        let _ = fs::remove_dir(folder.join("vtk"));
+        leave(folder, was_there);
+    }
+}
+
+/// Removes the folder of a run that could not begin, unless it was there before or holds something.
+pub(super) fn leave(folder: &Path, was_there: bool) {
+    if !was_there {
+        let _ = fs::remove_dir(folder);
+    }
+}
+
+/// The names in a folder, but for those that programs which were killed left half written, and for a marker that marks nothing yet.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let mut names: Vec<String> =
+        entries.filter(|name| !whole::is_temporary(name)).map(|name| name.to_string_lossy().into_owned()).collect();
+    names.sort();
+    if names == [marker::NAME] && Marker::read(folder).is_some() { Vec::new() } else { names }
+}
+
+/// Says what is in the folder and what can be done.
+fn refused(folder: &Path, names: &[String], force: bool) -> Failure {
+    let more = names.len().saturating_sub(SHOWN);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let holds = format!("it holds {}{more}", names[..names.len().min(SHOWN)].join(", "));
+    let place = folder.display();
+    let elsewhere = "choose another folder with --out, or have a numbered one made with --new";
+    let advice = if Marker::read(folder).is_some() {
+        format!("go on with its run (moreau run --resume {place}), replace its run with --force, or {elsewhere}")
+    } else if force {
+        format!("--force removes nothing there, for it has no {} of a run; {elsewhere}", marker::NAME)
+    } else {
+        format!("nothing of it is overwritten; {elsewhere}")
+    };
+    Failure::file(format!("cannot write into {place}: {holds}; {advice}"))
+}
+
+/// Removes the files that the marker lists. Nothing is removed before it is sure that all can be written, and never the scene to run.
+fn clear(folder: &Path, scene: &Path, marker: &Marker) -> Result<(), Failure> {
+    ["scene.toml", "summary.json", "steps.csv", "measures.csv", "trajectory.h5", "convergence.csv", marker::NAME]
+        .iter()
+        .try_for_each(|name| writable(&folder.join(name)))?;
     let vtk = folder.join("vtk");
-    if vtk.exists() && !vtk.is_dir() {
-        return Err(wrong(&vtk, &"it is not a folder"));
-    }
-    if vtk.exists() {
+    if vtk.symlink_metadata().is_ok() {
+        if !vtk.is_dir() || vtk.is_symlink() {
+            return Err(wrong(&vtk, &"it is not a folder"));
+        }
         writable(&vtk.join("bodies.pvd"))?;
     }
-    let old_frames = std::fs::read_dir(&vtk).into_iter().flatten().flatten().map(|entry| entry.path());
-    let is_frame = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "vtp" || extension == "pvd");
-    let old_problems = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let is_problem = |path: &PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        name.starts_with("failed-step-") && name.ends_with(".hdf5") && path.is_file()
-    };
-    let is_kept = |path: &PathBuf| path.file_name().is_some_and(checkpoint::is_name);
-    let old = old_frames.filter(is_frame).chain(old_problems.filter(|path| is_problem(path) || is_kept(path)));
-    for path in files[1..].iter().cloned().chain(old) {
-        match std::fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(wrong(&path, &error)),
+    let files = marker.files(folder);
+    let scene = scene.canonicalize().ok();
+    if let Some(same) = files.iter().find(|path| scene.is_some() && path.canonicalize().ok() == scene) {
+        return Err(wrong(same, &"it is the scene to run, which would be removed"));
+    }
+    for path in files.iter().filter(|path| path.file_name().is_none_or(|name| name != marker::NAME)) {
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(wrong(path, &error)),
             _ => {}
         }
     }
+    // One with files of the user's stays.
+    let _ = fs::remove_dir(vtk);
     Ok(())
-}
-
-/// Who writes what the scene asks for; of a run that goes on, with what is known of its files at that step.
-pub(super) fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
-    scene: &Scene,
-    world: &World<S, D, N>,
-    folder: &Path,
-    from: Option<(u64, &[Mark])>,
-) -> Result<Vec<Box<dyn Observer<S, D, N> + 'a>>, Failure> {
-    let mut observers: Vec<Box<dyn Observer<S, D, N> + 'a>> = Vec::new();
-    let every = scene.frames_every();
-    let wanted = |kind: OutputKind| scene.output.kinds.contains(&kind) && (every > 0 || kind == OutputKind::Steps);
-    // A file that is not there any more begins anew.
-    let old = |name: &str| from.filter(|_| resume::is_there(folder, name));
-    let mark = |name: &str| old(name)?.1.iter().find(|mark| mark.file == name);
-    let path = |name: &str| folder.join(name);
-    if wanted(OutputKind::Steps) {
-        let (name, path) = ("steps.csv", path("steps.csv"));
-        let table = mark(name).map_or_else(|| StepsCsv::create(&path), |mark| StepsCsv::resume(&path, mark));
-        observers.push(Box::new(table.map_err(Failure::file)?));
-    }
-    if wanted(OutputKind::Measures) {
-        let (name, path) = ("measures.csv", path("measures.csv"));
-        let table =
-            mark(name).map_or_else(|| MeasuresCsv::create(&path, every, D), |mark| MeasuresCsv::resume(&path, every, mark));
-        observers.push(Box::new(table.map_err(Failure::file)?));
-    }
-    if wanted(OutputKind::Vtk) {
-        let path = path("vtk");
-        let frames =
-            old("vtk").map_or_else(|| VtkOutput::create(&path, every), |(step, _)| VtkOutput::resume(&path, every, step));
-        observers.push(Box::new(frames.map_err(Failure::file)?));
-    }
-    if scene.output.kinds.contains(&OutputKind::Trajectory) {
-        let (path, precision) = (path("trajectory.h5"), scene.output.precision);
-        let settings = (scene.title.as_deref().unwrap_or_default(), every, precision);
-        let trajectory = old("trajectory.h5").map_or_else(
-            || TrajectoryOutput::create(&path, world, settings),
-            |(step, _)| TrajectoryOutput::resume(&path, (every, precision), step),
-        );
-        observers.push(Box::new(trajectory.map_err(Failure::file)?));
-    }
-    if scene.solver.on_failure == OnFailure::Dump || world.guard.dumps() {
-        observers.push(Box::new(FailedProblems::new(folder)));
-    }
-    Ok(observers)
 }

@@ -86,7 +86,7 @@ pub(super) fn kept(outcome: &Outcome, folder: &Path) -> String {
     let kept = format!("the {} steps before are kept in {}", outcome.summary.steps(), folder.display());
     match checkpoint::last_step(folder) {
         Some(step) => format!("{kept}; to go on from step {step}: moreau run --resume {}", folder.display()),
-        None => kept,
+        None => format!("{kept}; there is no checkpoint to go on from: begin again with --force"),
     }
 }
 
