@@ -35,9 +35,9 @@ impl Replace {
         let path = out.map_or_else(|| folder.join(name), Path::to_owned);
         let is_own = out.is_none() && Marker::read(folder).is_some_and(|marker| marker.lists(name));
         if is_own {
-            writable(&path)?
+            writable(&path)?;
         } else {
-            self.allows(&path)?
+            self.allows(&path)?;
         }
         Ok(path)
     }

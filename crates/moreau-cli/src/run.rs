@@ -23,7 +23,7 @@ use observers::observers;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use words::{describe, ending, judge, kept};
+use words::{describe, ending, judge};
 
 /// Arguments of `moreau run`.
 #[derive(clap::Args)]
@@ -220,7 +220,7 @@ fn compute<S: Space<D, N>, const D: usize, const N: usize>(
             return Err(Failure::file(format!("{error}; the run could not begin, and its files are removed")));
         }
         let lacks = if written.is_err() { "; summary.json could not be written either" } else { "" };
-        return Err(Failure::file(format!("{error}{lacks}; {}", kept(&outcome, folder))));
+        return Err(Failure::file(format!("{error}{lacks}; {}", words::whole(&outcome, folder))));
     }
     written?;
     if !args.quiet {

@@ -122,7 +122,7 @@ fn what_cannot_be_written_ends_a_run_with_its_summary() {
     std::fs::remove_file(place.path("out/ten").join(&name)).unwrap();
     std::fs::create_dir(place.path("out/ten").join(&name)).unwrap();
     let ran = place.moreau(&[&DUMP[..], &["--force"]].concat());
-    ran.fails(1, &[&name, "cannot be written", &format!("the {first} steps before are kept in out/ten")]);
+    ran.fails(1, &[&name, "cannot be written", &format!("of the {first} steps that were done the first 0 are kept in out/ten")]);
     assert_eq!(place.summary("out/ten")["steps"], first);
     assert_eq!(place.read("out/ten/steps.csv").lines().count() as u64, 1 + first);
 }

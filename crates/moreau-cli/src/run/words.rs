@@ -82,11 +82,28 @@ fn failed_problems(outcome: &Outcome, folder: &Path) -> String {
     text
 }
 
-pub(super) fn kept(outcome: &Outcome, folder: &Path) -> String {
-    let kept = format!("the {} steps before are kept in {}", outcome.summary.steps(), folder.display());
+/// What a run that ended early has kept, and how it goes on.
+fn kept(outcome: &Outcome, folder: &Path) -> String {
+    format!("the {} steps before are kept in {}; {}", outcome.summary.steps(), folder.display(), go_on(folder))
+}
+
+/// The same of a run that could not write: rows and frames after the checkpoint may be missing.
+pub(super) fn whole(outcome: &Outcome, folder: &Path) -> String {
+    let steps = outcome.summary.steps();
     match checkpoint::last_step(folder) {
-        Some(step) => format!("{kept}; to go on from step {step}: moreau run --resume {}", folder.display()),
-        None => format!("{kept}; there is no checkpoint to go on from: begin again with --force"),
+        Some(step) => {
+            format!("of the {steps} steps that were done the first {step} are kept in {}; {}", folder.display(), go_on(folder))
+        }
+        None => {
+            format!("{steps} steps were done, and their files in {} may lack the last ones; {}", folder.display(), go_on(folder))
+        }
+    }
+}
+
+fn go_on(folder: &Path) -> String {
+    match checkpoint::last_step(folder) {
+        Some(step) => format!("to go on from step {step}: moreau run --resume {}", folder.display()),
+        None => "there is no checkpoint to go on from: begin again with --force".to_owned(),
     }
 }
 
