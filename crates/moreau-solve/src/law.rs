@@ -45,7 +45,8 @@ pub const LAWS: &[Row] = &[
     serde(rename_all = "snake_case")
 )]
 pub enum Acts {
-    /// When its predicted gap is closed (eqs. 4-5), as in the paper.
+    /// When its predicted gap is closed (eqs. 4-5), as in the paper; or where it would get deeper than a tenth of the smaller body in the step, which
+    /// would go through.
     Closed,
     /// Also before: u_n + max(0, gap)/h ≥ 0, so that the gap at the next predicted configuration closes and is not overshot.
     #[default]
@@ -68,6 +69,8 @@ pub struct Approach<const D: usize> {
     pub gap: f64,
     /// Below this gap a contact counts as closed, m; rounding of positions must not open it.
     pub closed_below: f64,
+    /// How deep a contact that acts when closed may be going to get in the step, m; one that would get deeper acts on approach. Infinite is the paper's rule.
+    pub deepest: f64,
     /// The relative velocity u⁻ at the beginning of the step, m/s.
     pub before: Vector<D>,
     /// What rows of the end of the step add to the velocity at the end, and take from that at the beginning, m/s; zeros where the contact does not turn.
@@ -143,7 +146,8 @@ impl Law {
 #[inline]
 fn impact_shift<const D: usize>(contact: &Approach<D>, acts: Acts, e_n: f64, e_t: f64) -> Option<Vector<D>> {
     let closed = contact.gap <= contact.closed_below;
-    if !closed && acts == Acts::Closed {
+    // A body that would go through another in one step is never found closed.
+    if !closed && acts == Acts::Closed && contact.gap + contact.step * contact.before[0] >= -contact.deepest {
         return None;
     }
     // On approach, Newton's law waits for the contact that its own velocity would close within the step: a body that
@@ -171,7 +175,7 @@ mod tests {
     use super::*;
 
     const FALLING: Approach<2> =
-        Approach { gap: -1e-6, closed_below: 1e-12, before: [-2.0, 1.0], remainder: [0.0; 2], step: 1e-3 };
+        Approach { gap: -1e-6, closed_below: 1e-12, deepest: 1e-2, before: [-2.0, 1.0], remainder: [0.0; 2], step: 1e-3 };
 
     #[test]
     fn newtons_law_is_a_shift() {
@@ -193,6 +197,14 @@ mod tests {
         let law = Law::Frictionless(Frictionless { restitution: 0.0, acts: Acts::Approach });
         let form = law.normal_form(&Approach { gap: 1e-3, ..FALLING }).unwrap();
         assert_eq!(form.shift, [1.0, 0.0]);
+    }
+
+    #[test]
+    fn what_acts_when_closed_acts_earlier_where_it_would_get_too_deep() {
+        let law = Law::Frictionless(Frictionless { restitution: 0.0, acts: Acts::Closed });
+        let fast = Approach { gap: 1e-3, before: [-20.0, 1.0], ..FALLING };
+        assert_eq!(law.normal_form(&fast).unwrap().shift, [1.0, 0.0]);
+        assert_eq!(law.normal_form(&Approach { deepest: 1e-1, ..fast }), None);
     }
 
     #[test]

@@ -28,10 +28,11 @@ fn what_is_fast_stops_at_a_thin_plate() {
         "cylinder = { radius = 0.01, length = 0.01 }",
     ];
     for (speed, restitution) in [(5, 0.0), (50, 0.0), (50, 1.0), (300, 0.0), (300, 0.5), (300, 1.0)] {
-        for (shape, start) in shapes.into_iter().flat_map(|shape| [-0.5, -0.523].map(|start| (shape, start))) {
+        let starts = [(-0.5, "approach"), (-0.523, "approach"), (-0.5, "closed"), (-0.523, "closed")];
+        for (shape, (start, acts)) in shapes.into_iter().flat_map(|shape| starts.map(|start| (shape, start))) {
             let text = format!(
                 "dimension = 3\ntime = {{ step = 1e-3, steps = 1 }}\nmaterials.m.density = 1000.0\n\
-                 default_law.coulomb = {{ friction = 0.3, restitution = {restitution:?} }}\n\
+                 default_law.coulomb = {{ friction = 0.3, restitution = {restitution:?}, acts = \"{acts}\" }}\n\
                  [[bodies]]\nmotion = \"fixed\"\nshape.box.size = [0.002, 1.0, 1.0]\nmaterial = \"m\"\nposition = [0.0, 0.0, 0.0]\n\
                  [[bodies]]\nshape.{shape}\nmaterial = \"m\"\nposition = [{start:?}, 0.1, 0.05]\nvelocity = [{speed}.0, 2.0, 1.0]\n"
             );

@@ -105,17 +105,19 @@ material = "stone"
 position = [0.0, 1.1]
 "#;
 
-/// A law that acts on approach lets nothing sink in, whatever the step; one that waits until the gap is closed sinks by up to v h.
+/// A law that acts on approach lets nothing sink in, whatever the step; one that waits until the gap is closed sinks by up to v h, and where that is more
+/// than a tenth of the body acts on approach too.
 #[test]
 fn acting_on_approach_does_not_penetrate() {
     let deepest = |sets: &[&str]| {
         let mut world = plane(DISK, sets);
         let mut work = Workspace::default();
-        (0..100).map(|_| step(&mut world, &mut work).unwrap().penetration).fold(0.0, f64::max)
+        (0..300).map(|_| step(&mut world, &mut work).unwrap().penetration).fold(0.0, f64::max)
     };
     assert!(deepest(&[]) < 1e-15);
     let closed = ["default_law.coulomb.acts=closed", "solver.max_penetration=never"];
-    assert!(deepest(&closed) > 1e-3, "the step of this test is long on purpose");
+    assert!(deepest(&closed) <= 1e-2, "not deeper than a tenth of the disk");
+    assert!(deepest(&[closed[0], closed[1], "time.step=2e-3"]) > 1e-3, "the step of this test is long on purpose");
 }
 
 /// θ = 1 damps a bouncing spin and fall no more than its identity says: the ledger closes for any θ.

@@ -1,6 +1,6 @@
 //! Stages 4 to 8: which bodies meet, and the problem that this poses. What the step before left is taken up here.
 
-use super::localise::{Localiser, margins, speed};
+use super::localise::{DEEPEST, Localiser, margins, speed};
 use super::system::Kind;
 use super::turning::Turning;
 use super::{Workspace, recall};
@@ -25,7 +25,16 @@ pub(super) fn detect<S: Space<D, N>, const D: usize, const N: usize>(
     }
     tasks::fill(&mut work.reach, bodies.len(), |i| {
         let [beside, rounding] = margins(bodies, i, 0.01);
-        if approach { 2.0 * h * work.speeds[i] + beside + rounding } else { rounding }
+        if approach {
+            return 2.0 * h * work.speeds[i] + beside + rounding;
+        }
+        // What acts when closed is looked for farther off where it would be passed.
+        let way = 2.0 * h * fastest(world, i, &work.free[i]);
+        if way > DEEPEST * bodies.shape[i].bounding_radius().unwrap_or(f64::INFINITY) {
+            way + beside + rounding
+        } else {
+            rounding
+        }
     });
     work.detector.detect::<S, N>(&bodies.shape, &work.middle, &work.reach, |i| !bodies.is_free(i), &mut work.found);
     work.joints.part(&world.joints, &mut work.found);

@@ -44,6 +44,9 @@ const LASTING: f64 = 1e3;
 /// A contact that goes no farther in a step than so many times what rounding may make of a gap is at rest: a ten-millionth of a body's size.
 const AT_REST: f64 = 1e2;
 
+/// How deep a contact that acts when closed may be going to get in a step, as a part of the smaller body's bounding radius.
+pub(super) const DEEPEST: f64 = 0.1;
+
 /// What localising reads.
 pub(super) struct Localiser<'a, S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) world: &'a World<S, D, N>,
@@ -88,7 +91,8 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         }
         let remainder = lasting(remainder, before[0], contact.gap / self.h);
         let closed_below = self.closed_below(contact, self.h * (norm(&before) + norm(&remainder)));
-        let approach = Approach { gap: contact.gap, closed_below, before, remainder, step: self.h };
+        let deepest = DEEPEST * smaller(bodies, [a, b]);
+        let approach = Approach { gap: contact.gap, closed_below, deepest, before, remainder, step: self.h };
         let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach);
         let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
         let (after_a, after_b) = (free(a), free(b));
@@ -179,11 +183,17 @@ fn in_frame<const D: usize, const TURNS: bool>(frame: &[[f64; D]; D], a: &[f64; 
     std::array::from_fn(|i| if TURNS || i == 0 { dot(&frame[i], &relative) } else { 0.0 })
 }
 
+/// The smaller bounding radius of two bodies, m.
+#[inline]
+fn smaller<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, pair: [usize; 2]) -> f64 {
+    pair.iter().filter_map(|&i| bodies.shape[i].bounding_radius()).fold(f64::INFINITY, f64::min)
+}
+
 /// A gap below this part of the smaller body counts as closed: the rounding of positions must not open a contact for a step, in
 /// which a body at rest would fall or slip by g h². Positions are rounded relative to their distance from the origin.
 #[inline]
 fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, pair: [usize; 2]) -> f64 {
-    let size = pair.iter().filter_map(|&i| bodies.shape[i].bounding_radius()).fold(f64::INFINITY, f64::min);
+    let size = smaller(bodies, pair);
     let far = pair.iter().flat_map(|&i| bodies.pose[i].position).map(f64::abs).fold(0.0, f64::max);
     if size.is_finite() { rounding(size, far) } else { 0.0 }
 }
