@@ -52,7 +52,9 @@ impl Trajectory {
     /// Where it cannot be read, or is no trajectory, or one of a later version.
     pub fn open(path: &Path) -> Result<Self, TrajectoryError> {
         let wrong = |error: Error| TrajectoryError::new(path, error);
+        let length = std::fs::metadata(path).map_err(|error| TrajectoryError::new(path, error))?.len();
         let file = File::open_streaming(path).map_err(wrong)?;
+        holds(&file, path, length)?;
         let header = header(&file, path)?;
         let step = read(&file, path, "frames/step", Dataset::read_u64)?;
         let frames = step.len() as u64;
@@ -153,6 +155,31 @@ impl Trajectory {
 
 fn read<T>(file: &File, path: &Path, name: &str, get: impl Fn(&Dataset) -> Result<T, Error>) -> Result<T, TrajectoryError> {
     file.dataset(name).and_then(|set| get(&set)).map_err(|error| TrajectoryError::new(path, format!("{name}: {error}")))
+}
+
+/// How many bytes one byte of a file may stand for: deflate never makes more than 1 032 of one.
+const EXPANSION: u64 = 1100;
+
+/// How many bytes may be claimed beside that, by files of which little is compressed: one mebibyte.
+const FLOOR: u64 = 1 << 20;
+
+/// Refuses a file of which a dataset claims more than its `length` in bytes can hold, before memory for it is taken.
+fn holds(file: &File, path: &Path, length: u64) -> Result<(), TrajectoryError> {
+    let room = length.saturating_mul(EXPANSION).saturating_add(FLOOR);
+    let bodies = ["bodies/radius", "bodies/mass", "bodies/material", "bodies/free"];
+    let steps = ["frames/step", "frames/time", "frames/contacts", "contacts/status", "steps"];
+    for name in REALS.into_iter().chain(PAIRS).chain(bodies).chain(steps) {
+        // One that is not there is found where it is read.
+        let Ok(set) = file.dataset(name) else { continue };
+        let shape = set.shape().map_err(|error| TrajectoryError::new(path, format!("{name}: {error}")))?;
+        let count = shape.iter().fold(1_u64, |count, &size| count.saturating_mul(size));
+        if count > room {
+            let message =
+                format!("{name} claims {count} numbers, which the {length} bytes of the file cannot hold: it is damaged");
+            return Err(TrajectoryError::new(path, message));
+        }
+    }
+    Ok(())
 }
 
 fn header(file: &File, path: &Path) -> Result<Header, TrajectoryError> {

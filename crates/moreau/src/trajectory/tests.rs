@@ -92,3 +92,56 @@ fn what_is_no_trajectory_is_refused() {
     let error = Trajectory::open(&path).err().unwrap().to_string();
     assert!(error.contains("it is no trajectory"), "{error}");
 }
+
+/// Libraries from HDF5 2.0 on refuse chunks of 65 536 numbers and more as hdf5-pure writes them.
+#[test]
+fn chunks_of_many_bodies_are_short() {
+    let folder = tempfile::tempdir().unwrap();
+    for bodies in [16_384, 20_001, 70_003, 262_144] {
+        let header = Header {
+            radius: vec![1.0; bodies],
+            mass: vec![1.0; bodies],
+            material: vec![0; bodies],
+            free: vec![true; bodies],
+            ..header()
+        };
+        let path = folder.path().join(format!("{bodies}.h5"));
+        drop(TrajectoryWriter::create(&path, &header, Precision::Single).unwrap());
+        let file = hdf5_pure::File::open(&path).unwrap();
+        for name in
+            ["frames/position", "frames/rotation", "frames/spin", "contacts/impulse", "bodies/radius", "bodies/free", "steps"]
+        {
+            let chunk = file.dataset(name).unwrap().chunk_shape().unwrap().expect("it has chunks")[0];
+            assert!((1..65_536).contains(&chunk), "{name} of {bodies} bodies has chunks of {chunk}");
+            // Frames end with chunks, so that none is written twice.
+            let frame = bodies as u64 * if name == "frames/rotation" { 4 } else { 3 };
+            assert!(
+                !name.starts_with("frames/") || bodies == 70_003 || frame.is_multiple_of(chunk),
+                "{name}: {chunk} in {frame}"
+            );
+        }
+    }
+}
+
+/// A file whose datasets claim a thousand million numbers and store none is refused before memory for them is taken.
+#[test]
+fn numbers_that_a_file_cannot_hold_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["step", "time", "contacts"] {
+        let mut file = hdf5_pure::FileBuilder::new();
+        let mut frames = file.create_group("frames");
+        for other in ["step", "time", "contacts"] {
+            let claimed = if other == name { 1_000_000_000 } else { 0 };
+            let dataset = frames.create_dataset(other).with_data(&[0_f64; 0]);
+            dataset.with_shape(&[claimed]).with_maxshape(&[hdf5_pure::MaxExtent::Unlimited]).with_chunks(&[1024]);
+        }
+        file.add_group(frames.finish());
+        let path = folder.path().join(format!("{name}.h5"));
+        if file.write(&path).is_err() {
+            // The library writes no such file: then it cannot be tested so.
+            continue;
+        }
+        let error = Trajectory::open(&path).err().expect("it is refused").to_string();
+        assert!(error.contains(&format!("frames/{name} claims 1000000000 numbers")), "{error}");
+    }
+}

@@ -9,6 +9,10 @@ use std::path::{Path, PathBuf};
 /// About how many numbers a chunk holds: so much is compressed, and read, at a time.
 const CHUNK: usize = 1 << 14;
 
+/// The most numbers that a chunk may hold. hdf5-pure stores the length of a longer one in four bytes where three are enough, which is within the
+/// format, and which HDF5 2.0 and 2.1 refuse to read.
+const LONGEST: usize = (1 << 16) - 1;
+
 /// How well what is written is compressed: the least, for the run must not wait.
 const LEVEL: u32 = 1;
 
@@ -188,7 +192,7 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
         let (of_frames, name) = name.split_once('/').map_or((false, *name), |(group, name)| (group == "frames", name));
         // Whole frames of bodies, where they are small enough.
         let one = if of_frames { count * width } else { width };
-        let chunk = (one * (CHUNK / one.max(1)).max(1)).clamp(1, CHUNK << 6);
+        let chunk = if one > LONGEST { part(one) } else { (one * (CHUNK / one.max(1)).max(1)).max(1) };
         let group = if of_frames { &mut frames } else { &mut contacts };
         match precision {
             Precision::Single => growing(group.create_dataset(name), &[0_f32; 0], chunk),
@@ -207,11 +211,18 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
     file
 }
 
+/// The length of equal parts of `count` numbers, none longer than a chunk may be; without a rest where a few more parts allow it, so that a frame
+/// ends with a chunk, and the next one does not write that again.
+fn part(count: usize) -> usize {
+    let least = count.div_ceil(LONGEST).max(1);
+    count.div_ceil((least..4 * least).find(|&parts| count.is_multiple_of(parts)).unwrap_or(least))
+}
+
 /// A dataset that stays as it is, with a checksum.
 fn fixed<T: H5Element>(dataset: &mut DatasetBuilder, values: &[T]) {
     let dataset = dataset.with_data(values);
     if !values.is_empty() {
-        dataset.with_chunks(&[values.len().min(CHUNK << 6) as u64]).with_fletcher32();
+        dataset.with_chunks(&[part(values.len()) as u64]).with_fletcher32();
     }
 }
 
