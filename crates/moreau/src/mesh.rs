@@ -73,7 +73,8 @@ impl Mesh {
         stl::read(bytes, file)
     }
 
-    /// Reads Wavefront OBJ: `v` and `f`, faces of more than three corners as fans. All else is passed over.
+    /// Reads Wavefront OBJ: `v` and `f`, faces of more than three corners as fans; points nearer to each other than a part in 10⁹ of the extent
+    /// become one. All else is passed over.
     ///
     /// # Errors
     /// What is wrong, with its line; `file` is what errors call the bytes.

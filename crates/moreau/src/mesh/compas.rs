@@ -178,7 +178,7 @@ fn block(key: String, mesh: &At<'_>, node: Option<&At<'_>>) -> Result<Block, Mes
     let attribute = |name: &str| mesh.get("attributes").and_then(|attributes| attributes.get(name));
     let name = attribute("name").and_then(|name| name.text().map(str::to_owned));
     let flag = node.and_then(|node| node.get("is_support")).or_else(|| attribute("is_support"));
-    Ok(Block { key, name, mesh: polygon_mesh(mesh)?, support: flag.is_some_and(|flag| flag.is_set()) })
+    Ok(Block { key, name, mesh: polygon_mesh(mesh)?.of_file(), support: flag.is_some_and(|flag| flag.is_set()) })
 }
 
 /// A mesh: `vertex` and `face` by key, or a polyhedron's lists `vertices` and `faces`.

@@ -1,16 +1,31 @@
 //! Points that are one.
 
-use super::Mesh;
 use super::vector::{dot, sub};
+use super::{Mesh, PolygonMesh};
 use std::collections::HashMap;
 
-/// See [`Mesh::merged`]. Cells as wide as the tolerance hold the points that stay; one of the 27 around a point holds what is near it. The
-/// map is only asked for keys, so its order reaches nothing. A corner that names no point goes on doing so.
+/// See [`Mesh::merged`]. A corner that names no point goes on doing so.
 pub(super) fn merged(mesh: &Mesh, tolerance: f64) -> Mesh {
+    let (points, index) = joined(&mesh.points, tolerance);
+    let triangles = mesh.triangles.iter().map(|corners| corners.map(|i| index.get(i as usize).copied().unwrap_or(i)));
+    let triangles = triangles.filter(|&[a, b, c]| a != b && b != c && c != a).collect();
+    Mesh { points, triangles }
+}
+
+/// See [`PolygonMesh::merged`].
+pub(super) fn merged_polygons(mesh: &PolygonMesh, tolerance: f64) -> PolygonMesh {
+    let (points, index) = joined(&mesh.points, tolerance);
+    let face = |corners: &Vec<u32>| corners.iter().map(|&i| index.get(i as usize).copied().unwrap_or(i)).collect();
+    PolygonMesh { points, faces: mesh.faces.iter().map(face).collect() }
+}
+
+/// The points that stay, and for each point the number of the one that it becomes. Cells as wide as the tolerance hold the points that stay; one of the 27
+/// around a point holds what is near it. The map is only asked for keys, so its order reaches nothing.
+fn joined(all: &[[f64; 3]], tolerance: f64) -> (Vec<[f64; 3]>, Vec<u32>) {
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
-    let mut index = Vec::with_capacity(mesh.points.len());
-    for &point in &mesh.points {
+    let mut index = Vec::with_capacity(all.len());
+    for &point in all {
         let near = if tolerance > 0.0 {
             neighbourhood(cell(point, tolerance))
                 .filter_map(|key| cells.get(&key))
@@ -29,9 +44,7 @@ pub(super) fn merged(mesh: &Mesh, tolerance: f64) -> Mesh {
             new
         }));
     }
-    let triangles = mesh.triangles.iter().map(|corners| corners.map(|i| index.get(i as usize).copied().unwrap_or(i)));
-    let triangles = triangles.filter(|&[a, b, c]| a != b && b != c && c != a).collect();
-    Mesh { points, triangles }
+    (points, index)
 }
 
 /// Minus zero is zero.

@@ -1,5 +1,5 @@
 //! Wavefront OBJ: the lines `v x y z` and `f a b c …`, where a corner is `v`, `v/vt`, `v//vn` or `v/vt/vn` and v counts points from 1, or
-//! backwards from the last one so far, −1. A line that ends in `\` goes on in the next one. Normals, textures, groups, materials, lines
+//! backwards from the last one so far, −1. Faces may have vertices of their own: equal points become one. A line that ends in `\` goes on in the next one. Normals, textures, groups, materials, lines
 //! and curves are passed over.
 
 use super::stl::{point, shown};
@@ -43,7 +43,7 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<PolygonMesh, MeshError> {
             _ => {}
         }
     }
-    Ok(mesh)
+    Ok(mesh.of_file())
 }
 
 /// The index of a point, from 0.

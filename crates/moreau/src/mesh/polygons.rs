@@ -1,6 +1,9 @@
 //! Meshes of polygons.
 
-use super::Mesh;
+use super::{Mesh, merge};
+
+/// The part of a mesh's extent below which points of a file are one: far below what files tell, far above how equal numbers are rounded.
+const ONE_POINT: f64 = 1e-9;
 
 /// Points, and faces that name three or more of them each, counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +15,22 @@ pub struct PolygonMesh {
 }
 
 impl PolygonMesh {
+    /// The same surface with each point once, for files whose faces have vertices of their own; see [`Mesh::merged`]. Faces stay, also those that have no area.
+    #[must_use]
+    pub fn merged(&self, tolerance: f64) -> Self {
+        merge::merged_polygons(self, tolerance)
+    }
+
+    /// The same with points one that are nearer to each other than a part in 10⁹ of the mesh's extent.
+    pub(super) fn of_file(&self) -> Self {
+        let extent = |k: usize| {
+            let (low, high) =
+                self.points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])));
+            high - low
+        };
+        self.merged(ONE_POINT * (0..3).map(extent).fold(0.0, f64::max))
+    }
+
     /// Each face as a fan of triangles around its first corner. The fan of a face that is plane and convex covers it.
     pub fn triangulated(&self) -> Mesh {
         let fan = |face: &Vec<u32>| {

@@ -234,6 +234,25 @@ fn obj_is_read_in_all_its_forms() {
     }
 }
 
+/// As many programs write it: each face has corners of its own, rounded or not.
+#[test]
+fn an_obj_whose_faces_have_vertices_of_their_own_is_closed() {
+    let cube = cuboid([0.3, 0.2, 0.1]);
+    for noise in [0.0, 1e-11] {
+        let (mut vertices, mut faces) = (String::new(), String::new());
+        for (i, triangle) in cube.triangles.iter().enumerate() {
+            for &point in triangle {
+                let [x, y, z] = cube.points[point as usize].map(|x| x + noise * (i % 3) as f64);
+                vertices += &format!("v {x:?} {y:?} {z:?}\n");
+            }
+            faces += &format!("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+        }
+        let mesh = Mesh::from_obj((vertices + &faces).as_bytes(), "cube.obj").unwrap();
+        assert_eq!((mesh.points.len(), mesh.triangles.len()), (8, 12));
+        assert!(mesh.closed().is_ok());
+    }
+}
+
 #[test]
 fn points_within_the_tolerance_become_the_first_of_them() {
     let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0 + 9e-4, 0.0, 0.0], [-0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];

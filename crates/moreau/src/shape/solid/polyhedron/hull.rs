@@ -5,6 +5,7 @@
 //! never split into slivers, whose normals would be noise. A library's hull in triangles was tried: it lost the thickness of most plates of 1 to
 //! 1000 (see the tests), which are stones as others are.
 
+use crate::mesh::Mesh;
 use crate::shape::ShapeError;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -27,6 +28,7 @@ pub(super) fn hull(points: &[[f64; 3]], flat: f64) -> Result<Faces, ShapeError> 
         let [x, y, z] = points[vertex];
         return Err(ShapeError::NotFinitePoint { vertex, x, y, z });
     }
+    let points = &each_once(points, flat);
     // About the first point, so that bodies far from the origin lose nothing.
     let origin = DVec3::from(points[0]);
     let near: Vec<DVec3> = points.iter().map(|&p| DVec3::from(p) - origin).collect();
@@ -41,6 +43,13 @@ pub(super) fn hull(points: &[[f64; 3]], flat: f64) -> Result<Faces, ShapeError> 
     }
     let faces = faces.iter().map(|face| face.iter().map(|i| place[i]).collect()).collect();
     Ok((used.into_iter().map(|i| points[i]).collect(), faces))
+}
+
+/// Points that are farther from each other than ε; of those that are nearer the first. Files name corners once for each face.
+fn each_once(points: &[[f64; 3]], flat: f64) -> Vec<[f64; 3]> {
+    let extent = |k: usize| points.iter().map(|p| (p[k] - points[0][k]).abs()).fold(0.0, f64::max);
+    let soup = Mesh { points: points.to_vec(), triangles: Vec::new() };
+    soup.merged(flat * (0..3).map(extent).fold(0.0, f64::max)).points
 }
 
 /// Refuses points that lie in one point, on one line or in one plane.

@@ -135,3 +135,16 @@ fn what_is_no_body_is_said() {
     assert!(of(&block([1e-80; 3])).contains("one plane"));
     assert!(of(&prism(2100)).contains("at most 4096"));
 }
+
+/// Meshes name a corner once for each face.
+#[test]
+fn a_hull_with_repeated_points_is_a_hull() {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let once = Polyhedron::hull(&corners).unwrap().0;
+    for again in [0.0, 1e-12] {
+        let points: Vec<[f64; 3]> = (0..3).flat_map(|k| corners.map(|p| p.map(|x| x + f64::from(k) * again))).collect();
+        let hull = Polyhedron::hull(&points).unwrap().0;
+        assert_eq!(hull.vertices(), 4);
+        assert!((hull.volume() - once.volume()).abs() < 1e-11);
+    }
+}
