@@ -180,7 +180,13 @@ fn lengths_and_densities_are_positive() {
         &["keep one of them"],
     );
     broken(SOLID, "max = 0.1 }", "max = 0.01 }", "generate[0].radii.uniform.max", &["expected max at or above min"]);
-    broken(SOLID, "radius = 0.2 }", "radius = 1e-300 }", "bodies[2].shape", &["mass"]);
+    for extreme in ["1e-300", "1e300", "1e160"] {
+        let words = ["radius is 1e", "from 1e-50 to 1e50: others have no mass"];
+        broken(SOLID, "radius = 0.2 }", &format!("radius = {extreme} }}"), "bodies[2].shape.ball.radius", &words);
+    }
+    // A sieve curve of such sizes was drawn from without end.
+    let sieve = "radii.sieve = [[0.02, 0.0], [1e300, 1.0]]";
+    broken(SOLID, "radii.uniform = { min = 0.05, max = 0.1 }", sieve, "generate[0].radii.sieve[1][0]", &["from 1e-50 to 1e50"]);
 }
 
 #[test]

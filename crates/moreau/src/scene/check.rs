@@ -158,13 +158,18 @@ fn count(scene: &Scene) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A positive number; `unit` ends the hint.
+/// Lengths, m, of which moments of inertia, of the fifth power, are numbers.
+const LENGTHS: std::ops::RangeInclusive<f64> = 1e-50..=1e50;
+
+/// A positive number; `unit` ends the hint. Lengths (in m) must be such that masses can be told from them.
 pub(super) fn positive(path: KeyPath, value: f64, unit: &str) -> Result<(), Fault> {
-    if value > 0.0 && value.is_finite() {
+    let is_length = unit == "in m";
+    if value > 0.0 && value.is_finite() && (!is_length || LENGTHS.contains(&value)) {
         return Ok(());
     }
+    let unit = if is_length { "in m, from 1e-50 to 1e50: others have no mass that is a number" } else { unit };
     let key = path.0.iter().rev().find_map(|segment| if let Segment::Key(key) = segment { Some(&**key) } else { None });
-    let message = format!("{} is {value}", key.unwrap_or("the value"));
+    let message = format!("{} is {value:?}", key.unwrap_or("the value"));
     Err(Fault::new(path, message, format!("expected a positive number, {unit}")))
 }
 
