@@ -101,10 +101,11 @@ impl Recording {
         Ok(())
     }
 
-    /// Its name: the scene's title, else the folder's.
+    /// Its name: the scene's title, else the folder's; without control characters, which no XML can hold.
     pub fn title(&self) -> String {
         let folder = || self.folder.file_name().map(|name| name.to_string_lossy().into_owned());
-        self.scene.title.clone().or_else(folder).unwrap_or_default()
+        let title = self.scene.title.clone().or_else(folder).unwrap_or_default();
+        title.chars().filter(|c| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')).collect()
     }
 
     /// A column of `steps.csv`, by its name; empty where there is none.
