@@ -6,10 +6,13 @@ use super::vector::{NO_DIRECTION, along, dot, sub};
 /// must not decide between them.
 pub(super) const LEVEL: f64 = 1e-9;
 
-/// One minus the cosine of the angle between two normals below which the points of a face are taken in place of the one of two edges. The plane of
+/// One minus the cosine of the angle between two normals below which the points of a face, if one of them is as near, are taken in place of the one of two edges. The plane of
 /// a face goes on beyond it: a corner of a tilted body may be deeper under that plane, where the other body is not, than two edges are in each other. One
 /// point instead of four would let the body tilt further.
 pub(super) const SAME: f64 = 1e-8;
+
+/// In parts of what is level: a hundredth of the size. Only so near, and so little deep, bodies have points of a face so.
+pub(super) const CLOSE: f64 = 1e7;
 
 /// The highest bits of a feature: the part of the second of two bodies of parts, or of the one such body.
 const LAST_PART: u32 = 54;

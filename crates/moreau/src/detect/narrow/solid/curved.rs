@@ -31,6 +31,7 @@ mod tube;
 mod tubes;
 
 use super::Pose;
+use crate::detect::narrow::common::CLOSE;
 use crate::detect::narrow::vector::{NO_DIRECTION, along, dot, sub};
 use crate::space::{Solid, Space};
 
@@ -95,9 +96,10 @@ pub(super) fn contacts<A: Convex, B: Convex>(
     if best.is_beyond(touch) {
         return;
     }
-    if let Some(face) = best.face_beside() {
+    let gap = best.first.apart - touch.grown();
+    if let Some(face) = best.face_beside().filter(|_| gap.abs() <= CLOSE * touch.level) {
         let points = points_along(best, face, touch);
-        if !points.all().is_empty() {
+        if points.all().iter().any(|point| point.gap <= gap + touch.level) {
             return show(points, pose, emit);
         }
     }

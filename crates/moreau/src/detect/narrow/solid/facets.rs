@@ -16,7 +16,7 @@ mod seen;
 
 use super::Pose;
 use super::curved::seen_from;
-use crate::detect::narrow::common::{LEVEL, SAME};
+use crate::detect::narrow::common::{CLOSE, LEVEL, SAME};
 use crate::detect::narrow::vector::{along, dot};
 use crate::shape::solid::Faceted;
 use crate::space::{Solid, Space};
@@ -129,7 +129,8 @@ impl Scratch {
         if let Some((point, within)) = edges(a, b, apart, level, &mut self.bounds)
             && point.gap > apart + level
         {
-            if self.least() < f64::INFINITY && dot(point.normal, normal) > 1.0 - SAME {
+            let same = dot(point.normal, normal) > 1.0 - SAME && point.gap.abs() <= CLOSE * level;
+            if same && self.least() <= point.gap + level {
                 return;
             }
             (normal, apart) = (point.normal, point.gap);
