@@ -164,7 +164,7 @@ const EXPANSION: u64 = 1100;
 const FLOOR: u64 = 1 << 20;
 
 /// Refuses a file of which a dataset claims more than its `length` in bytes can hold, before memory for it is taken.
-fn holds(file: &File, path: &Path, length: u64) -> Result<(), TrajectoryError> {
+pub(super) fn holds(file: &File, path: &Path, length: u64) -> Result<(), TrajectoryError> {
     let room = length.saturating_mul(EXPANSION).saturating_add(FLOOR);
     let bodies = ["bodies/radius", "bodies/mass", "bodies/material", "bodies/free"];
     let steps = ["frames/step", "frames/time", "frames/contacts", "contacts/status", "steps"];
