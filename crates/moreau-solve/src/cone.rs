@@ -56,6 +56,12 @@ impl Cone {
         }
     }
 
+    /// Whether a contact that carries nothing obeys the law at any velocity that opens it; what is held never does.
+    #[inline]
+    pub(crate) fn may_open(self) -> bool {
+        matches!(self, Cone::Signorini | Cone::Coulomb(_) | Cone::Rolling { .. })
+    }
+
     /// û, the velocity with de Saxcé's correction, m/s: the law is K* ∋ û ⊥ r ∈ K. It is u + μ‖u_T‖ n for Coulomb (eq. 28),
     /// u + (μ‖u_T‖ + μ_r‖u_R‖) n with rolling, and u itself for the laws whose cone needs none.
     #[inline(always)]

@@ -31,12 +31,14 @@
 //! ```
 
 mod certificate;
+mod speeds;
 
 pub use certificate::{EpsGlob, MOST_ERRORS, MOST_SCALED, Residual, Worst, larger};
 
 use crate::block::{Matrix, Vector, axpy, dot, norm, sub, tangent_norm};
 use crate::tasks::fold;
 use crate::{Cone, Criterion, Operator, Problem};
+use speeds::Speeds;
 use std::ops::Range;
 
 /// The four terms of ε_glob at contact `c`.
@@ -354,55 +356,12 @@ fn squared<const D: usize>(a: &Vector<D>) -> f64 {
     dot(a, a)
 }
 
-/// True if a contact carries nothing and is open without impulses and with them: it obeys its law whatever its gap is. What is held never does so by
-/// being open.
+/// True if a contact carries nothing and is open without impulses and with them: it obeys its law whatever its gap is.
 #[inline(always)]
 fn stays_open<const D: usize>(Measured { cone, q, u, r, .. }: &Measured<D>) -> bool {
-    let parts = matches!(cone, Cone::Signorini | Cone::Coulomb(_) | Cone::Rolling { .. });
-    let open = parts && q[0] > 0.0 && u[0] > 0.0 && r.iter().all(|&x| x == 0.0);
+    let open = cone.may_open() && q[0] > 0.0 && u[0] > 0.0 && r.iter().all(|&x| x == 0.0);
     // What is no finite number is to be seen.
     open && squared(q) + squared(u) < f64::INFINITY
-}
-
-/// How many times faster than the fastest of the others a contact that stays open may count.
-const FASTER: f64 = 10.0;
-
-/// The scale of the scaled residual. Contacts that stay open have their gap, divided by the step, in both velocities, which may be any number:
-/// all together they count for no more than if each were [`FASTER`] than the fastest of the others (theory (38)).
-#[derive(Clone, Copy, Default)]
-struct Speeds {
-    /// Σ ‖q‖² + ‖u‖² and its greatest part.
-    sum: f64,
-    fastest: f64,
-    /// The sum for contacts that stay open, and how many they are.
-    open: f64,
-    count: u32,
-}
-
-impl Speeds {
-    #[inline(always)]
-    fn add<const D: usize>(&mut self, q: &Vector<D>, u: &Vector<D>) {
-        let speed = squared(q) + squared(u);
-        self.sum += speed;
-        self.fastest = larger(self.fastest, speed);
-    }
-
-    #[inline(always)]
-    fn add_open<const D: usize>(&mut self, q: &Vector<D>, u: &Vector<D>) {
-        self.open += squared(q) + squared(u);
-        self.count += 1;
-    }
-
-    fn with(&mut self, other: &Self) {
-        self.sum += other.sum;
-        self.fastest = larger(self.fastest, other.fastest);
-        self.open += other.open;
-        self.count += other.count;
-    }
-
-    fn total(&self) -> f64 {
-        self.sum + self.open.min(FASTER * FASTER * f64::from(self.count) * self.fastest)
-    }
 }
 
 /// One contact as the scaled residual sees it.

@@ -24,7 +24,7 @@ mod through_bodies;
 use super::Work;
 use super::steps::{after_step, product, scales};
 use crate::block::{Vector, axpy, norm, sub};
-use crate::{Cone, Operator, Problem, Status};
+use crate::{Operator, Problem, Status};
 use factors::{System, ThroughContacts};
 use through_bodies::ThroughBodies;
 
@@ -48,8 +48,7 @@ const HELD: f64 = 1e4;
 fn wide<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>) -> Vec<bool> {
     let closing = |c: usize| if problem.q[c][0] > 0.0 { 0.0 } else { norm(&problem.q[c]) };
     let fastest = (0..problem.len()).map(closing).fold(0.0, f64::max);
-    let parts = |cone| matches!(cone, Cone::Signorini | Cone::Coulomb(_) | Cone::Rolling { .. });
-    (0..problem.len()).map(|c| problem.q[c][0] > WIDE * fastest && parts(problem.cones[c])).collect()
+    (0..problem.len()).map(|c| problem.q[c][0] > WIDE * fastest && problem.cones[c].may_open()).collect()
 }
 
 /// D: w_c, and more of it for contacts that are `held` to zero.
@@ -81,8 +80,9 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
         return status;
     }
     let mut held = wide(work.problem);
-    let Some(mut system) = system(work.problem, &held) else { return Status::Unsuited };
-    let mut variables = Variables::new(work, &held);
+    let w = diagonal(work.problem, &held);
+    let Some(mut system) = system(work.problem, &w) else { return Status::Unsuited };
+    let mut variables = Variables::new(work, w);
     let (mut wait, mut changed_at) = (FIRST_WAIT, work.judge.sweeps);
     if !system.factorise(variables.rho) {
         return Status::Stalled;
@@ -96,7 +96,7 @@ pub(super) fn run<O: Operator<D>, const D: usize>(work: &mut Work<'_, O, D>) -> 
         if held.iter().zip(&*work.r).any(|(&held, r)| held && *r != [0.0; D]) {
             held.fill(false);
             variables.weigh(diagonal(work.problem, &held));
-            let Some(plain) = self::system(work.problem, &held) else { return Status::Unsuited };
+            let Some(plain) = self::system(work.problem, &variables.w) else { return Status::Unsuited };
             system = plain;
             if !system.factorise(variables.rho) {
                 return Status::Stalled;
@@ -123,25 +123,24 @@ pub(super) fn suits<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>)
     unknowns <= LIMIT && 2 * moved.iter().filter(|moved| **moved).count() <= unknowns
 }
 
-/// W + ϱ D in the smaller of its two forms; `None` where the problem is too large.
-fn system<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, held: &[bool]) -> Option<Box<dyn System<D>>> {
+/// W + ϱ D, D = diag `w`, in the smaller of its two forms; `None` where the problem is too large.
+fn system<O: Operator<D>, const D: usize>(problem: &Problem<'_, O, D>, w: &[f64]) -> Option<Box<dyn System<D>>> {
     if problem.len() * D > LIMIT {
         return None;
     }
-    let diagonal = diagonal(problem, held);
-    match ThroughBodies::new(problem, &diagonal) {
+    match ThroughBodies::new(problem, w) {
         Some(system) => Some(Box::new(system)),
-        None => Some(Box::new(ThroughContacts::new(problem, &diagonal)?)),
+        None => Some(Box::new(ThroughContacts::new(problem, w)?)),
     }
 }
 
 impl<const D: usize> Variables<D> {
     /// From the impulses of now and their velocities.
-    fn new<O: Operator<D>>(work: &mut Work<'_, O, D>, held: &[bool]) -> Self {
+    fn new<O: Operator<D>>(work: &mut Work<'_, O, D>, w: Vec<f64>) -> Self {
         let problem = work.problem;
         let mut u = vec![[0.0; D]; problem.len()];
         product(problem, &mut work.scratch.state, work.r, &mut u);
-        let (w, rho) = (diagonal(problem, held), FIRST);
+        let rho = FIRST;
         let mut lambda = u.clone();
         for c in 0..problem.len() {
             let dual = problem.cones[c].project_dual(&problem.cones[c].hat(&axpy(&problem.q[c], 1.0, &u[c])));

@@ -41,7 +41,7 @@ pub(super) fn detect<S: Space<D, N>, const D: usize, const N: usize>(
 }
 
 /// The greatest speed of a point of body `i` in the step, as far as it is known before the solve, m/s. Contacts matter as far as it may travel, doubled for what
-/// other contacts add to its speed, and by a part of its size. Those that act only when closed matter within rounding.
+/// other contacts add to its speed, and by a part of its size. Those that act only when closed matter within rounding, but for what would be passed.
 fn fastest<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>, i: usize, free: &[f64; N]) -> f64 {
     let radius = world.bodies.shape[i].bounding_radius().unwrap_or(0.0);
     speed::<D, N>(radius, free).max(speed::<D, N>(radius, &world.bodies.velocity[i]))

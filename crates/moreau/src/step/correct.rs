@@ -14,7 +14,7 @@ mod doubt;
 mod held;
 
 use super::integrate::predict;
-use super::localise::{margins, speed};
+use super::localise::{margins, smaller, speed};
 use super::record::energies;
 use super::system::Kind;
 use super::{Localised, Workspace};
@@ -150,8 +150,7 @@ fn pair_of<const D: usize>(contact: &Contact<D>) -> (u32, u32) {
 
 /// How deep two bodies may overlap, m.
 fn allowed<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, (a, b): (u32, u32), part: f64) -> f64 {
-    let radius = |body: u32| bodies.shape[body as usize].bounding_radius().unwrap_or(f64::INFINITY);
-    part * radius(a).min(radius(b))
+    part * smaller(bodies, [a, b].map(|body| body as usize))
 }
 
 /// The contacts of the bodies where they were looked ahead to, with those that a displacement may close: one about as long as how far they came last, which is

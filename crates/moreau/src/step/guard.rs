@@ -1,9 +1,9 @@
 //! Limits that a step must keep to, and what is said of one that does not.
 
 use super::Workspace;
+use super::localise::smaller;
 use crate::bodies::Bodies;
 use crate::contacts::Contact;
-use crate::shape::Shape;
 use crate::space::Space;
 use crate::world::{Guard, World};
 use moreau_solve::tasks;
@@ -62,8 +62,7 @@ pub(super) fn smaller_radius<S: Space<D, N>, const D: usize, const N: usize>(
     bodies: &Bodies<S, D, N>,
     contact: &Contact<D>,
 ) -> f64 {
-    let radius = |i: u32| bodies.shape[i as usize].bounding_radius().unwrap_or(f64::INFINITY);
-    radius(contact.key.a).min(radius(contact.key.b))
+    smaller(bodies, [contact.key.a, contact.key.b].map(|body| body as usize))
 }
 
 /// The overlap that exceeds what is allowed by most.

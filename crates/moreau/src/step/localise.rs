@@ -90,8 +90,9 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
             (1..D).for_each(|i| remainder[i] = -half[i]);
         }
         let remainder = lasting(remainder, before[0], contact.gap / self.h);
-        let closed_below = self.closed_below(contact, self.h * (norm(&before) + norm(&remainder)));
-        let deepest = DEEPEST * smaller(bodies, [a, b]);
+        let size = smaller(bodies, [a, b]);
+        let closed_below = self.closed_below(contact, size, self.h * (norm(&before) + norm(&remainder)));
+        let deepest = DEEPEST * size;
         let approach = Approach { gap: contact.gap, closed_below, deepest, before, remainder, step: self.h };
         let form = self.world.laws.get(bodies.material[a], bodies.material[b]).normal_form(&approach);
         let free = |body: usize| self.at_point::<TURNS>(contact, body, self.free, spins(|spins| &spins.free));
@@ -110,8 +111,9 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
 
     /// Below which gap a contact that goes so far in the step (m) counts as closed, m: rounding, and where it is at rest and carried something in the step before a little more. What a solve's tolerance opens at some corners of a
     /// face must not leave the others to carry everything.
-    fn closed_below(&self, contact: &Contact<D>, goes: f64) -> f64 {
-        let rounding = closed_below(&self.world.bodies, [contact.key.a, contact.key.b].map(|body| body as usize));
+    fn closed_below(&self, contact: &Contact<D>, size: f64, goes: f64) -> f64 {
+        let pair = [contact.key.a, contact.key.b].map(|body| body as usize);
+        let rounding = closed_below(&self.world.bodies, pair, size);
         let lasting = LASTING * rounding;
         let carried = || {
             let before = self.previous.binary_search_by(|(key, _)| key.cmp(&contact.key));
@@ -131,8 +133,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Localiser<'_, S, D, N> {
         before: &[f64; D],
     ) -> Option<[f64; D]> {
         let slip = tangent_norm(before);
-        let radius = |i: usize| self.world.bodies.shape[i].bounding_radius().unwrap_or(f64::INFINITY);
-        if a.max(b) >= self.last.len() || self.h * slip <= SLIDES * radius(a).min(radius(b)) {
+        if a.max(b) >= self.last.len() || self.h * slip <= SLIDES * smaller(&self.world.bodies, [a, b]) {
             return None;
         }
         let velocity = |i: usize| {
@@ -183,17 +184,19 @@ fn in_frame<const D: usize, const TURNS: bool>(frame: &[[f64; D]; D], a: &[f64; 
     std::array::from_fn(|i| if TURNS || i == 0 { dot(&frame[i], &relative) } else { 0.0 })
 }
 
-/// The smaller bounding radius of two bodies, m.
+/// The smallest bounding radius of some bodies, m; infinite if none is bounded.
 #[inline]
-fn smaller<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, pair: [usize; 2]) -> f64 {
-    pair.iter().filter_map(|&i| bodies.shape[i].bounding_radius()).fold(f64::INFINITY, f64::min)
+pub(super) fn smaller<S: Space<D, N>, const D: usize, const N: usize>(
+    bodies: &Bodies<S, D, N>,
+    some: impl IntoIterator<Item = usize>,
+) -> f64 {
+    some.into_iter().filter_map(|i| bodies.shape[i].bounding_radius()).fold(f64::INFINITY, f64::min)
 }
 
 /// A gap below this part of the smaller body counts as closed: the rounding of positions must not open a contact for a step, in
 /// which a body at rest would fall or slip by g h². Positions are rounded relative to their distance from the origin.
 #[inline]
-fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, pair: [usize; 2]) -> f64 {
-    let size = smaller(bodies, pair);
+fn closed_below<S: Space<D, N>, const D: usize, const N: usize>(bodies: &Bodies<S, D, N>, pair: [usize; 2], size: f64) -> f64 {
     let far = pair.iter().flat_map(|&i| bodies.pose[i].position).map(f64::abs).fold(0.0, f64::max);
     if size.is_finite() { rounding(size, far) } else { 0.0 }
 }

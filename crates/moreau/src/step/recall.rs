@@ -1,8 +1,8 @@
 //! Stage 5: the impulses of the step before, and what becomes of them for the next.
 
+use super::localise::smaller;
 use super::{Localised, Workspace};
 use crate::contacts::ContactKey;
-use crate::shape::Shape;
 use crate::space::Space;
 use crate::world::{Rows, Start, World};
 use moreau_solve::block::norm;
@@ -56,10 +56,6 @@ pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
         return;
     }
     let (contacts, blocks, bodies) = (&work.contacts, &work.joints.blocks, &world.bodies);
-    let size = |pair: [Option<usize>; 2]| {
-        let radius = |body: usize| bodies.shape[body].bounding_radius();
-        pair.into_iter().flatten().filter_map(radius).fold(f64::INFINITY, f64::min)
-    };
     let rest = |c: usize| {
         let (before, gap, pair) = match contacts.get(c) {
             Some(Localised { before, contact, .. }) => {
@@ -68,7 +64,7 @@ pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
             None => (&blocks[c - contacts.len()].before, 0.0, blocks[c - contacts.len()].bodies),
         };
         // A gap that stays open carries nothing.
-        gap.max(h * norm(before)) <= AT_REST * size(pair)
+        gap.max(h * norm(before)) <= AT_REST * smaller(bodies, pair.into_iter().flatten())
     };
     let few = contacts.len() + blocks.len() <= FEW;
     if !warm || few || world.steps.is_multiple_of(EVERY) || world.steps.is_power_of_two() {
