@@ -1,5 +1,5 @@
-//! `run.json`, the marker by which the folder of a run is known: the version of the program that made the folder, and the names of the files
-//! that it makes there. `--force` removes files of these names and no others.
+//! The marker `run.json` tells that a folder is a run's. It holds the version of the program that made the folder and the names of the files
+//! that the program makes there. `--force` removes files of these names and no others.
 
 use crate::failure::{Failure, write_whole};
 use serde_json::{Value, json};
@@ -50,7 +50,7 @@ impl Marker {
         Self(FILES.map(str::to_owned).to_vec())
     }
 
-    /// Reads the marker of a folder; none where there is none, or `run.json` is something else.
+    /// Reads the marker of a folder. Returns nothing if there is no `run.json`, or if it is not a marker.
     pub(crate) fn read(folder: &Path) -> Option<Self> {
         let marker: Value = serde_json::from_slice(&fs::read(folder.join(NAME)).ok()?).ok()?;
         let is_ours = marker["format"] == "moreau run" && marker["layout"] == LAYOUT;

@@ -19,7 +19,7 @@ pub(super) fn observers<'a, S: Space<D, N>, const D: usize, const N: usize>(
     let mut observers: Vec<Box<dyn Observer<S, D, N> + 'a>> = Vec::new();
     let every = scene.frames_every();
     let wanted = |kind: OutputKind| scene.output.kinds.contains(&kind) && (every > 0 || kind == OutputKind::Steps);
-    // A file that is not there any more begins anew.
+    // A run makes a missing file anew.
     let old = |name: &str| from.filter(|_| resume::is_there(folder, name));
     let mark = |name: &str| old(name)?.1.iter().find(|mark| mark.file == name);
     let path = |name: &str| folder.join(name);

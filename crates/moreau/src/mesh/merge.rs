@@ -19,8 +19,8 @@ pub(super) fn merged_polygons(mesh: &PolygonMesh, tolerance: f64) -> PolygonMesh
     PolygonMesh { points, faces: mesh.faces.iter().map(face).collect() }
 }
 
-/// The points that stay, and for each point the number of the one that it becomes. Cells as wide as the tolerance hold the points that stay; one of the 27
-/// around a point holds what is near it. The map is only asked for keys, so its order reaches nothing.
+/// The points that stay, and for each point the number of the one that it becomes. Cells as wide as the tolerance hold the points that stay; the 27
+/// cells around a point hold all points near it. The code reads the map by key alone, so the map's order has no effect.
 fn joined(all: &[[f64; 3]], tolerance: f64) -> (Vec<[f64; 3]>, Vec<u32>) {
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
