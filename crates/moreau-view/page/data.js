@@ -36,6 +36,8 @@ function frameAt(buffer, offset, n, m, dimension) {
         spin: floats(n * (dimension === 3 ? 3 : 1)),
         contacts: m,
     };
+    frame.motion = new Uint8Array(buffer, at, n); // 0 absent, 1 held or driven, 2 free
+    at += 4 * Math.ceil(n / 4);
     const start = at;
     Object.assign(frame, {
         a: indices(m), b: indices(m), point: floats(m * dimension), normal: floats(m * dimension),

@@ -22,12 +22,11 @@ class Panel {
         const { run, picture } = this, { bodies, meta } = run, D = run.dimension, frame = picture.frame;
         const touching = Array.from({ length: frame.contacts }, (_, k) => k).filter((k) => frame.a[k] === i || frame.b[k] === i);
         const spin = D === 3 ? 3 : 1, figure = meta.shapes[bodies.shape[i]];
-        const gone = !Number.isFinite(frame.position[D * i]);
         return [
             ["Material", meta.materials[bodies.material[i]]],
             ["Shape", `${shapeName(figure, D)}${bodies.radius[i] > 0 ? `, radius ${quantity(bodies.radius[i], "m")}` : ""}`],
             ["Mass", bodies.mass[i] === null ? "–" : `${figures(bodies.mass[i])} kg`],
-            ["State", gone ? "not there now" : bodies.free[i] ? "free" : "fixed or driven"],
+            ["State", ["not there now", "fixed or driven", "free"][frame.motion[i]]],
             ["Position", `${tuple(frame.position, D * i, D)} m`],
             ["Velocity", `${tuple(frame.velocity, D * i, D)} m/s`],
             ["Speed", `${figures(lengthAt(frame.velocity, i, D))} m/s`],

@@ -86,6 +86,13 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Schedule<S, D, N> {
         self.removed
     }
 
+    /// Bodies that come from a source, and such as are set free.
+    pub(crate) fn freed(&self) -> impl Iterator<Item = usize> {
+        let frees = |event: &&Event<D, N>| matches!(event.change, Change::Drive(Drive::Free(_)));
+        let later = self.events.iter().filter(frees).map(|event| event.body);
+        self.sources.iter().flat_map(Source::bodies).chain(later)
+    }
+
     /// Does what is due at `time`, the beginning of a step of length `h`; returns the energy of free bodies that it brought, J.
     pub(crate) fn act(&mut self, bodies: &mut Bodies<S, D, N>, gravity: &[f64; D], time: f64, h: f64) -> f64 {
         let now = time + EARLY * h;

@@ -6,11 +6,12 @@
 //!
 //! | dataset | of each | numbers | meaning |
 //! |---|---|---|---|
-//! | `bodies/radius`, `mass`, `material`, `free` | body | 1 | bounding radius (m, infinite of what is unbounded), mass (kg), index of the material, whether it was free at the start |
+//! | `bodies/radius`, `mass`, `material`, `free` | body | 1 | bounding radius (m, infinite of what is unbounded), mass (kg), index of the material, whether it is free at some time of the run |
 //! | `frames/step`, `time`, `contacts` | frame | 1 | number of the step, its time (s), contacts of all frames to the end of this one |
 //! | `frames/position`, `velocity` | frame and body | `D` | m, m/s |
 //! | `frames/rotation` | frame and body | 4, 2 | quaternion x, y, z, w; in the plane cosine and sine |
 //! | `frames/spin` | frame and body | 3, 1 | in the world, rad/s |
+//! | `frames/motion` | frame and body | 1 | 0 absent (not yet come, or taken out), 1 held or driven, 2 free |
 //! | `contacts/a`, `b` | contact | 1 | indices of the bodies |
 //! | `contacts/point`, `normal`, `impulse` | contact | `D` | m; unit, from a to b; that of the step on b, in the world, N·s |
 //! | `contacts/gap` | contact | 1 | m, at the predicted configuration |
@@ -37,7 +38,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The version of the layout and of the columns of records.
-const VERSION: i64 = 3;
+const VERSION: i64 = 4;
 
 /// What the attribute `format` says.
 const FORMAT: &str = "moreau trajectory";
@@ -80,6 +81,8 @@ pub struct Batch {
     pub contacts: Vec<u64>,
     /// What is real, by [`REALS`].
     pub reals: [Vec<f64>; REALS.len()],
+    /// How bodies move: 0 absent, 1 held or driven, 2 free.
+    pub motion: Vec<u8>,
     /// The pairs of bodies of contacts.
     pub pairs: [Vec<u32>; 2],
     /// Their status.
@@ -115,6 +118,7 @@ impl Batch {
         self.time.clear();
         self.contacts.clear();
         self.reals.iter_mut().for_each(Vec::clear);
+        self.motion.clear();
         self.pairs.iter_mut().for_each(Vec::clear);
         self.status.clear();
         self.rows.clear();
@@ -126,6 +130,7 @@ impl Batch {
         self.time.extend(&other.time);
         self.contacts.extend(&other.contacts);
         self.reals.iter_mut().zip(&other.reals).for_each(|(to, from)| to.extend(from));
+        self.motion.extend(&other.motion);
         self.pairs.iter_mut().zip(&other.pairs).for_each(|(to, from)| to.extend(from));
         self.status.extend(&other.status);
         self.rows.extend(&other.rows);
@@ -133,13 +138,27 @@ impl Batch {
 
     /// Takes over a frame that was read.
     fn push(&mut self, frame: TrajectoryFrame) {
-        let TrajectoryFrame { step, time, position, rotation, velocity, spin, pairs, point, normal, impulse, gap, status } =
-            frame;
+        let TrajectoryFrame {
+            step,
+            time,
+            position,
+            rotation,
+            velocity,
+            spin,
+            motion,
+            pairs,
+            point,
+            normal,
+            impulse,
+            gap,
+            status,
+        } = frame;
         self.step.push(step);
         self.time.push(time);
         self.contacts.push(status.len() as u64);
         let reals = [position, rotation, velocity, spin, point, normal, impulse, gap];
         self.reals.iter_mut().zip(reals).for_each(|(to, from)| to.extend(from));
+        self.motion.extend(motion);
         self.pairs.iter_mut().zip(pairs).for_each(|(to, from)| to.extend(from));
         self.status.extend(status);
     }

@@ -123,6 +123,13 @@ pub struct World<S: Space<D, N>, const D: usize, const N: usize> {
 }
 
 impl<S: Space<D, N>, const D: usize, const N: usize> World<S, D, N> {
+    /// Of each body whether it is free at some time of the run: now, once it has come from a source, or from an event on.
+    pub fn ever_free(&self) -> Vec<bool> {
+        let mut free: Vec<bool> = (0..self.bodies.len()).map(|i| self.bodies.is_free(i)).collect();
+        self.schedule.freed().for_each(|i| free[i] = true);
+        free
+    }
+
     /// Lets the events happen that are due; returns the energy of free bodies that they bring, J.
     pub(crate) fn act(&mut self) -> f64 {
         self.schedule.act(&mut self.bodies, &self.gravity, self.time, self.settings.h)

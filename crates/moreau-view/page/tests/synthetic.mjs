@@ -89,7 +89,9 @@ export class Synthetic {
         const status = Buffer.alloc(4 * Math.ceil(m / 4));
         contacts.forEach((c, k) => (status[k] = c.status));
         const parts = [position, rotation, velocity, spin].map(floats);
-        parts.push(indices("a"), indices("b"), ...["point", "normal", "impulse", "gap"].map((key) => floats(of(key))), status);
+        const motion = Buffer.alloc(4 * Math.ceil(n / 4));
+        for (let i = 0; i < n; i++) motion[i] = Number.isNaN(position[D * i]) ? 0 : i < grounds ? 1 : 2;
+        parts.push(motion, indices("a"), indices("b"), ...["point", "normal", "impulse", "gap"].map((key) => floats(of(key))), status);
         return { bytes: Buffer.concat(parts), contacts: m };
     }
 

@@ -25,13 +25,18 @@ fn put(bytes: &mut Vec<u8>, frame: &TrajectoryFrame) {
     for reals in [&frame.position, &frame.rotation, &frame.velocity, &frame.spin] {
         singles(bytes, reals);
     }
+    whole_words(bytes, &frame.motion);
     for bodies in &frame.pairs {
         bytes.extend(bodies.iter().flat_map(|body| body.to_le_bytes()));
     }
     for reals in [&frame.point, &frame.normal, &frame.impulse, &frame.gap] {
         singles(bytes, reals);
     }
-    bytes.extend(&frame.status);
+    whole_words(bytes, &frame.status);
+}
+
+fn whole_words(bytes: &mut Vec<u8>, numbers: &[u8]) {
+    bytes.extend(numbers);
     bytes.resize(bytes.len().next_multiple_of(4), 0);
 }
 

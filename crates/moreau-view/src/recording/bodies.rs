@@ -23,7 +23,7 @@ pub(super) fn of<S: Space<D, N>, const D: usize, const N: usize>(scene: &Scene, 
     let value = json!({
         "name": all.clone().map(|i| scene.bodies.get(i).and_then(|body| body.name.as_deref())).collect::<Vec<_>>(),
         "material": bodies.material,
-        "free": all.clone().map(|i| u8::from(bodies.is_free(i))).collect::<Vec<_>>(),
+        "free": world.ever_free().into_iter().map(u8::from).collect::<Vec<_>>(),
         "radius": bodies.shape.iter().map(|shape| shape.bounding_radius().unwrap_or(0.0)).collect::<Vec<_>>(),
         // What is infinite is null.
         "mass": bodies.mass.iter().map(|mass| mass[0]).collect::<Vec<_>>(),

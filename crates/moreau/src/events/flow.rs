@@ -45,6 +45,11 @@ impl<const D: usize, const N: usize> Source<D, N> {
         Self { rain, count: 0, random, near: Vec::new() }
     }
 
+    /// Indices of the bodies that it brings.
+    pub(super) fn bodies(&self) -> Range<usize> {
+        self.rain.bodies.clone()
+    }
+
     /// How many have come, and the generator of places.
     pub(super) fn state(&self) -> (usize, Random) {
         (self.count, self.random.clone())

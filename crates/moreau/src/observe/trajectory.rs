@@ -5,6 +5,7 @@
 use super::background::{self, Background};
 use super::status::status;
 use super::{Frame, Observer, OutputError, numbers};
+use crate::bodies::Motion;
 use crate::checkpoint::Mark;
 use crate::shape::Shape;
 use crate::space::Space;
@@ -52,7 +53,7 @@ impl TrajectoryOutput {
             radius: bodies.shape.iter().map(|shape| shape.bounding_radius().unwrap_or(f64::INFINITY)).collect(),
             mass: bodies.mass.iter().map(|mass| mass[0]).collect(),
             material: bodies.material.clone(),
-            free: (0..bodies.len()).map(|i| bodies.is_free(i)).collect(),
+            free: world.ever_free(),
         };
         Self::of(path, every, TrajectoryWriter::create(path, &header, precision)?)
     }
@@ -123,6 +124,11 @@ fn take<S: Space<D, N>, const D: usize, const N: usize>(to: &mut Batch, frame: &
             spin.extend(turned);
         }
     }
+    to.motion.extend(bodies.motion.iter().map(|motion| match motion {
+        Motion::Absent => 0,
+        Motion::Driven => 1,
+        Motion::Free => 2,
+    }));
     for contact in contacts {
         let Localised { contact: c, .. } = contact;
         point.extend(c.point);

@@ -31,6 +31,8 @@ pub struct TrajectoryFrame {
     pub velocity: Vec<f64>,
     /// 3 or 1 a body.
     pub spin: Vec<f64>,
+    /// One a body: 0 absent, 1 held or driven, 2 free.
+    pub motion: Vec<u8>,
     /// First and second body of each contact.
     pub pairs: [Vec<u32>; 2],
     /// `D` a contact.
@@ -114,12 +116,13 @@ impl Trajectory {
         let (position, rotation, velocity, spin) = (next()?, next()?, next()?, next()?);
         let (point, normal, impulse, gap) = (next()?, next()?, next()?, next()?);
         let [a, b] = PAIRS.map(|name| self.numbers(name, [first, count], Dataset::read_u32_rows));
+        let motion = self.numbers("frames/motion", [i as u64 * bodies, bodies], Dataset::read_u8_rows)?;
         let status = self.numbers("contacts/status", [first, count], Dataset::read_u8_rows)?;
         let (step, time, pairs) = (self.step[i], self.time[i], [a?, b?]);
         if pairs.iter().flatten().any(|&body| u64::from(body) >= bodies) {
             return Err(TrajectoryError::new(&self.path, format!("frame {i} has a contact of a body that does not exist")));
         }
-        Ok(TrajectoryFrame { step, time, position, rotation, velocity, spin, pairs, point, normal, impulse, gap, status })
+        Ok(TrajectoryFrame { step, time, position, rotation, velocity, spin, motion, pairs, point, normal, impulse, gap, status })
     }
 
     /// The records of steps, a column after the other as in `steps.csv`.
@@ -167,7 +170,7 @@ const FLOOR: u64 = 1 << 20;
 pub(super) fn holds(file: &File, path: &Path, length: u64) -> Result<(), TrajectoryError> {
     let room = length.saturating_mul(EXPANSION).saturating_add(FLOOR);
     let bodies = ["bodies/radius", "bodies/mass", "bodies/material", "bodies/free"];
-    let steps = ["frames/step", "frames/time", "frames/contacts", "contacts/status", "steps"];
+    let steps = ["frames/step", "frames/time", "frames/contacts", "frames/motion", "contacts/status", "steps"];
     for name in REALS.into_iter().chain(PAIRS).chain(bodies).chain(steps) {
         // One that is not there is found where it is read.
         let Ok(set) = file.dataset(name) else { continue };

@@ -36,6 +36,7 @@ fn frame(k: u64) -> Batch {
             numbers(3 * k, 0.7),
             numbers(k, 0.8),
         ],
+        motion: vec![2, if k < 5 { 0 } else { 2 }, 1],
         pairs: [vec![0; k as usize], vec![2; k as usize]],
         status: vec![1; k as usize],
         rows: vec![row],
@@ -71,7 +72,7 @@ fn frames_are_read_as_they_were_written() {
                 assert_eq!(written.len(), read.len());
                 assert!(written.iter().zip(read).all(|(w, r)| (w - r).abs() <= epsilon * w), "{written:?} {read:?}");
             }
-            assert_eq!((read.pairs, read.status), (written.pairs, written.status));
+            assert_eq!((read.motion, read.pairs, read.status), (written.motion, written.pairs, written.status));
         }
         let columns = trajectory.columns().unwrap();
         assert_eq!(columns[0], (0..40).map(f64::from).collect::<Vec<_>>());

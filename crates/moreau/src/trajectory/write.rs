@@ -33,7 +33,7 @@ pub struct Header {
     pub mass: Vec<f64>,
     /// Indices of materials.
     pub material: Vec<u16>,
-    /// Whether bodies are free, at the start.
+    /// Whether bodies are free at some time of the run.
     pub free: Vec<bool>,
 }
 
@@ -135,6 +135,7 @@ impl TrajectoryWriter {
         for (name, values) in PAIRS.iter().zip(&batch.pairs) {
             grow(file, name, values)?;
         }
+        grow(file, "frames/motion", &batch.motion)?;
         grow(file, "contacts/status", &batch.status)?;
         grow(file, "steps", batch.rows.as_flattened())?;
         grow(file, "frames/time", &batch.time)?;
@@ -190,15 +191,14 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
     let mut contacts = file.create_group("contacts");
     for (name, width) in REALS.iter().zip(widths(header.dimension)) {
         let (of_frames, name) = name.split_once('/').map_or((false, *name), |(group, name)| (group == "frames", name));
-        // Whole frames of bodies, where they are small enough.
-        let one = if of_frames { count * width } else { width };
-        let chunk = if one > LONGEST { part(one) } else { (one * (CHUNK / one.max(1)).max(1)).max(1) };
+        let chunk = whole_rows(if of_frames { count * width } else { width });
         let group = if of_frames { &mut frames } else { &mut contacts };
         match precision {
             Precision::Single => growing(group.create_dataset(name), &[0_f32; 0], chunk),
             Precision::Double => growing(group.create_dataset(name), &[0_f64; 0], chunk),
         }
     }
+    growing(frames.create_dataset("motion"), &[0_u8; 0], whole_rows(count));
     growing(frames.create_dataset("step"), &[0_u64; 0], CHUNK >> 4);
     growing(frames.create_dataset("time"), &[0_f64; 0], CHUNK >> 4);
     growing(frames.create_dataset("contacts"), &[0_u64; 0], CHUNK >> 4);
@@ -209,6 +209,11 @@ fn layout(header: &Header, precision: Precision) -> FileBuilder {
     file.add_group(contacts.finish());
     growing(file.create_dataset("steps"), &[0_f64; 0], CHUNK);
     file
+}
+
+/// The length of chunks that hold whole rows of `one` number each, where rows are short enough.
+fn whole_rows(one: usize) -> usize {
+    if one > LONGEST { part(one) } else { (one * (CHUNK / one.max(1)).max(1)).max(1) }
 }
 
 /// The length of equal parts of `count` numbers, none longer than a chunk may be; without a rest where a few more parts allow it, so that a frame
