@@ -2,8 +2,9 @@
 
 use crate::Failure;
 use moreau::solve::files::{self, AnyProblem, Iterate, ProblemFile, StoredProblem};
-use moreau::solve::{Report, Scratch, Settings, solve};
+use moreau::solve::{Report, Scratch, Settings, solve_until};
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Reads a problem file. That it cannot be read is one kind of failure, that it holds no problem another.
@@ -51,16 +52,24 @@ pub(crate) struct Solved {
     pub(crate) answer: Iterate,
 }
 
-/// Solves `problem` from the impulses `start`, `repeat` times.
-pub(crate) fn run(problem: &AnyProblem, settings: &Settings, start: Option<&[f64]>, repeat: u16) -> Solved {
+/// The impulses from which a solve begins, zero where there are none, and how often it is repeated.
+type Guessed<'a> = (Option<&'a [f64]>, u16);
+
+/// Solves `problem` from its guess, as often as is asked, until `stop` is set.
+pub(crate) fn run(problem: &AnyProblem, settings: &Settings, guessed: Guessed<'_>, stop: &AtomicBool) -> Solved {
     match problem {
-        AnyProblem::Plane(stored) => run_stored(stored, settings, start, repeat),
-        AnyProblem::Solid(stored) | AnyProblem::PlaneRolling(stored) => run_stored(stored, settings, start, repeat),
-        AnyProblem::SolidRolling(stored) => run_stored(stored, settings, start, repeat),
+        AnyProblem::Plane(stored) => run_stored(stored, settings, guessed, stop),
+        AnyProblem::Solid(stored) | AnyProblem::PlaneRolling(stored) => run_stored(stored, settings, guessed, stop),
+        AnyProblem::SolidRolling(stored) => run_stored(stored, settings, guessed, stop),
     }
 }
 
-fn run_stored<const D: usize>(stored: &StoredProblem<D>, settings: &Settings, start: Option<&[f64]>, repeat: u16) -> Solved {
+fn run_stored<const D: usize>(
+    stored: &StoredProblem<D>,
+    settings: &Settings,
+    (start, repeat): Guessed<'_>,
+    stop: &AtomicBool,
+) -> Solved {
     let problem = stored.problem();
     let first: Vec<[f64; D]> = match start {
         Some(r) => r.as_chunks().0.to_vec(),
@@ -72,7 +81,7 @@ fn run_stored<const D: usize>(stored: &StoredProblem<D>, settings: &Settings, st
     for _ in 0..repeat.max(1) {
         r.clone_from(&first);
         let clock = Instant::now();
-        report = solve(&problem, settings, &mut r, &mut scratch);
+        report = solve_until(&problem, settings, stop, &mut r, &mut scratch);
         seconds.push(clock.elapsed().as_secs_f64());
     }
     seconds.sort_by(f64::total_cmp);

@@ -144,7 +144,10 @@ fn row(args: &Args, path: &Path, methods: &[Methods], stop: &AtomicBool, bar: &P
         if stop.load(Ordering::Relaxed) {
             break;
         }
-        let solved = problem::run(&reduced, &args.how.settings(global, local), None, args.how.repeat);
+        let solved = problem::run(&reduced, &args.how.settings(global, local), (None, args.how.repeat), stop);
+        if solved.report.status == Status::Interrupted {
+            break;
+        }
         row.cells.push(Cell { seconds: solved.seconds, report: solved.report });
         bar.inc(1);
     }

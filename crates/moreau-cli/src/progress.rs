@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Set by Ctrl-C, and on Unix by the signals that ask a program to end (SIGTERM) or tell that its terminal is gone (SIGHUP).
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Makes Ctrl-C end runs after the step at hand; a second one ends the program at once.
+/// Makes Ctrl-C end runs with the last whole step; a second one ends the program at once.
 pub(crate) fn stop_on_ctrl_c() -> Result<&'static AtomicBool, Failure> {
     let handler = || {
         if STOP.swap(true, Ordering::Relaxed) {

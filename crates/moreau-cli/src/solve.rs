@@ -10,7 +10,7 @@ use moreau::solve::files::{self, Iterate, ProblemFile};
 use moreau::solve::{Criterion, GlobalMethod, LocalMethod, Settings, Status};
 use show::Row;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Arguments of `moreau solve`.
 #[derive(clap::Args)]
@@ -94,7 +94,7 @@ pub(crate) fn solve(args: &Args) -> Result<(), Failure> {
             break;
         }
         bar.set_message(path.display().to_string());
-        match one(args, path) {
+        match one(args, path, stop) {
             Ok(row) if args.json => {
                 bar.suspend(|| say(&format!("{}\n", row.json())))?;
                 rows.push(row);
@@ -113,6 +113,7 @@ pub(crate) fn solve(args: &Args) -> Result<(), Failure> {
         }
         bar.inc(1);
     }
+    interrupted |= rows.last().is_some_and(|row| row.report.status == Status::Interrupted);
     bar.finish_and_clear();
     if !args.json && !rows.is_empty() {
         say(&show::report(&rows, args.certificate || args.files.len() == 1))?;
@@ -149,7 +150,7 @@ fn check_out(path: &Path, files: usize, replace: Replace) -> Result<(), Failure>
 }
 
 /// Reads, solves and, if asked, writes one problem.
-fn one(args: &Args, path: &Path) -> Result<Row, Failure> {
+fn one(args: &Args, path: &Path, stop: &AtomicBool) -> Result<Row, Failure> {
     let mut file = problem::read(path)?;
     let reduced = problem::reduce(path, &file)?;
     let mut notes = std::mem::take(&mut file.notes);
@@ -159,7 +160,7 @@ fn one(args: &Args, path: &Path) -> Result<Row, Failure> {
     }
     let settings = args.how.settings(args.global, args.local);
     let Solved { report, seconds, answer } =
-        problem::run(&reduced, &settings, guess.map(|guess| guess.r.as_slice()), args.how.repeat);
+        problem::run(&reduced, &settings, (guess.map(|guess| guess.r.as_slice()), args.how.repeat), stop);
     let row = Row {
         file: path.display().to_string(),
         dimension: file.dimension,

@@ -1,8 +1,9 @@
-//! Ctrl-C: the program ends after the step at hand, with code 130 and everything that it computed.
+//! Ctrl-C: the program ends within a second, with code 130 and every whole step that it computed.
 #![cfg(unix)]
 
 mod common;
 
+use common::problems::{chain, put};
 use common::{Place, TEN};
 use std::io::Read;
 use std::process::{Child, Command, Stdio};
@@ -143,18 +144,61 @@ fn two_runs_do_not_write_into_one_folder() {
     place.moreau(&["run", "ten.toml", "--out", "mine", "--quiet", "--force"]).fine();
 }
 
-#[test]
-fn a_second_signal_ends_it_at_once() {
-    let place = Place::with("ten.toml", TEN);
-    // A step that takes hours: the first signal waits for its end.
-    let many = ["--set", "solver.max_sweeps=1000000000000", "--set", "solver.tolerance=1e-300", "--set", "solver.global=nlgs"];
-    let words = [&["run", "ten.toml", "--out", "slow", "--quiet"][..], &many].concat();
-    let running = Running::start(&place, &words);
+/// What makes a step take hours.
+const HOURS: [&str; 6] =
+    ["--set", "solver.max_sweeps=1000000000000", "--set", "solver.tolerance=1e-300", "--set", "solver.global=nlgs"];
+
+/// Waits until there is such a file, and a little more.
+fn wait_for(path: &std::path::Path) {
     let until = Instant::now() + Duration::from_secs(10);
-    while !place.path("slow/scene.toml").exists() {
+    while !path.exists() {
         assert!(Instant::now() < until, "it does not begin");
         std::thread::sleep(Duration::from_millis(10));
     }
+    std::thread::sleep(Duration::from_millis(300));
+}
+
+#[test]
+fn a_step_is_given_up_within_a_second_and_the_one_before_it_is_kept() {
+    let place = Place::with("ten.toml", TEN);
+    for signal in ["INT", "TERM"] {
+        let words = [&["run", "ten.toml", "--out", signal, "--quiet"][..], &HOURS].concat();
+        let running = Running::start(&place, &words);
+        wait_for(&place.path(&format!("{signal}/scene.toml")));
+        let since = Instant::now();
+        running.send(signal);
+        let (code, _, err) = running.end();
+        assert!(since.elapsed() < Duration::from_secs(1), "{:?}", since.elapsed());
+        assert_eq!(code, Some(130), "{err}");
+        let steps = place.summary(signal)["steps"].as_u64().unwrap();
+        assert!(err.contains(&format!("the {steps} steps before are kept in {signal}; to go on from step {steps}: ")), "{err}");
+        // The step that was given up is none: it is in no file.
+        assert_eq!(place.read(&format!("{signal}/steps.csv")).lines().count() as u64, 1 + steps);
+    }
+}
+
+#[test]
+fn a_solve_is_given_up_within_a_second_and_tells_how_far_it_came() {
+    let place = Place::new();
+    put(&place, "p.dat", &chain(100));
+    let hours = ["--max-sweeps", "1000000000000", "--tolerance", "1e-300", "--global", "nlgs"];
+    let running = Running::start(&place, &[&["solve", "p.dat", "--json"][..], &hours].concat());
+    std::thread::sleep(Duration::from_millis(500));
+    let since = Instant::now();
+    running.interrupt();
+    let (code, out, err) = running.end();
+    assert!(since.elapsed() < Duration::from_secs(1), "{:?}", since.elapsed());
+    assert_eq!(code, Some(130), "{err}");
+    assert!(out.contains("\"interrupted\""), "{out}");
+}
+
+#[test]
+fn a_second_signal_ends_it_at_once() {
+    let place = Place::new();
+    // A pipe that nobody writes into is waited for: no flag is looked at.
+    let made = Command::new("mkfifo").arg(place.path("p.dat")).status().expect("mkfifo");
+    assert!(made.success());
+    let running = Running::start(&place, &["solve", "p.dat"]);
     std::thread::sleep(Duration::from_millis(300));
     running.interrupt();
     std::thread::sleep(Duration::from_millis(300));

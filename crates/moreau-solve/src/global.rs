@@ -22,6 +22,7 @@ use crate::residual::measure;
 use crate::{Operator, Problem, Report, Residual, Row, Settings, Status};
 use best::settle;
 use judge::Judge;
+use std::sync::atomic::AtomicBool;
 
 /// The methods by name. Adding one is a file, a variant with its row in [`GLOBAL_METHODS`], and an arm of `Work::run`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -220,8 +221,20 @@ pub fn solve<O: Operator<D>, const D: usize>(
     r: &mut [Vector<D>],
     scratch: &mut Scratch<O::State, D>,
 ) -> Report {
+    solve_until(problem, settings, &AtomicBool::new(false), r, scratch)
+}
+
+/// The same, until `stop` is set: then it ends after the sweep or step that is being done, as [`Status::Interrupted`], with the best impulses that were
+/// measured.
+pub fn solve_until<O: Operator<D>, const D: usize>(
+    problem: &Problem<'_, O, D>,
+    settings: &Settings,
+    stop: &AtomicBool,
+    r: &mut [Vector<D>],
+    scratch: &mut Scratch<O::State, D>,
+) -> Report {
     scratch.claimed.clear();
-    let judge = Judge::new(problem, settings, std::mem::take(&mut scratch.kept));
+    let judge = Judge::new(problem, settings, stop, std::mem::take(&mut scratch.kept));
     let mut work = Work { problem, settings: *settings, r, scratch, judge, stages: Vec::new() };
     let status = if problem.is_empty() { work.certify().unwrap_or(Status::Stalled) } else { work.run(settings.global) };
     let Work { r, scratch, judge, mut stages, .. } = work;

@@ -43,7 +43,7 @@ pub mod tasks;
 mod wide;
 
 pub use cone::Cone;
-pub use global::{GlobalMethod, Scratch, certify, solve};
+pub use global::{GlobalMethod, Scratch, certify, solve, solve_until};
 pub use law::{Acts, Law, NormalForm};
 pub use local::LocalMethod;
 pub use operator::{Balls, Delassus, MatrixFree, Operator};

@@ -13,6 +13,8 @@ pub enum Status {
     MaxSweeps,
     /// The limit of seconds was reached first.
     OutOfTime,
+    /// It was asked to stop; see [`solve_until`](crate::solve_until).
+    Interrupted,
     /// The method can do no more: a matrix that it cannot factorise, or steps that no longer lower the residual.
     Stalled,
     /// The method is not made for such a problem: too large for its dense matrix, or a law that it does not know.
@@ -28,6 +30,7 @@ impl Status {
             Status::Converged => "converged",
             Status::MaxSweeps => "max_sweeps",
             Status::OutOfTime => "out_of_time",
+            Status::Interrupted => "interrupted",
             Status::Stalled => "stalled",
             Status::Unsuited => "unsuited",
             Status::NotFinite => "not_finite",

@@ -2,7 +2,7 @@
 
 use crate::run::{End, Task, Unwritten, run};
 use crate::space::Space;
-use crate::step::{StepRecord, Workspace, step};
+use crate::step::{StepRecord, Workspace, step_until};
 use crate::world::{OnFailure, World};
 use moreau_solve::{GlobalMethod, HistoryRow, Kernels, LocalMethod};
 use std::sync::atomic::AtomicBool;
@@ -57,20 +57,20 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Probe<S, D, N> {
         settings.solver.max_sweeps = settings.solver.max_sweeps.saturating_mul(10).min(2_000_000);
         let mut after = before.clone();
         after.settings.solver.local = LocalMethod::Exact;
-        let arrived =
-            outcome.end == End::Done && step(&mut after, &mut Workspace::default()).is_ok_and(|record| record.converged());
+        let arrived = outcome.end == End::Done
+            && step_until(&mut after, &mut Workspace::default(), stop).is_ok_and(|record| record.converged());
         Ok(arrived.then_some(Self { before, after }))
     }
 
     /// Takes the step with `methods`: residuals by sweep, and the greatest relative difference in velocity; infinite where the step
     /// fails or does not converge.
-    pub fn take(&self, methods: Methods) -> (Vec<HistoryRow>, f64) {
+    pub fn take(&self, methods: Methods, stop: &AtomicBool) -> (Vec<HistoryRow>, f64) {
         let mut world = self.before.clone();
         let solver = &mut world.settings.solver;
         (solver.global, solver.local, solver.history) = (methods.0, methods.1, true);
         solver.kernels = Kernels::Plain;
         let mut work = Workspace::default();
-        let converged = step(&mut world, &mut work).is_ok_and(|record| record.converged());
+        let converged = step_until(&mut world, &mut work, stop).is_ok_and(|record| record.converged());
         let difference = if converged { disagreement(&self.after, &world) } else { f64::INFINITY };
         (std::mem::take(&mut work.history), difference)
     }
@@ -111,7 +111,7 @@ pub fn compare_one<S: Space<D, N>, const D: usize, const N: usize>(
     stop: &AtomicBool,
     mut progress: impl FnMut(&StepRecord),
 ) -> Result<Row, Box<Unwritten>> {
-    let (mut history, disagreement) = probe.map_or((Vec::new(), f64::NAN), |probe| probe.take(methods));
+    let (mut history, disagreement) = probe.map_or((Vec::new(), f64::NAN), |probe| probe.take(methods, stop));
     let mut once = || -> Result<Row, Box<Unwritten>> {
         let mut world = start.clone();
         let solver = &mut world.settings.solver;

@@ -76,6 +76,11 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Schedule<S, D, N> {
         Self { events, next: 0, running: Vec::new(), sources, sinks, inserted: 0, removed: 0 }
     }
 
+    /// Whether nothing ever happens.
+    pub fn is_empty(&self) -> bool {
+        self.events.is_empty() && self.sources.is_empty() && self.sinks.is_empty()
+    }
+
     /// How many bodies have come so far from sources.
     pub fn inserted(&self) -> u64 {
         self.inserted

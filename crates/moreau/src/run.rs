@@ -3,7 +3,7 @@
 use crate::checkpoint::{Checkpoint, Checkpoints, Mark};
 use crate::observe::{Frame, Observer, OutputError, Summary};
 use crate::space::Space;
-use crate::step::{FailedSolve, StepError, StepRecord, Workspace, step};
+use crate::step::{FailedSolve, StepError, StepRecord, Workspace, step_until};
 use crate::world::World;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -92,7 +92,7 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
             end = End::Interrupted;
             break;
         }
-        let done = step(world, work);
+        let done = step_until(world, work, stop);
         if let Some(failed) = work.take_failed() {
             audience.see_failed(&failed, &mut summary);
         }
@@ -105,6 +105,10 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
                 }
                 progress(&record);
             }
+            Err(StepError::Interrupted { .. }) => {
+                end = End::Interrupted;
+                break;
+            }
             Err(error) => {
                 summary.fail(error.to_string());
                 end = End::Failed(error);
@@ -112,9 +116,8 @@ pub fn run<S: Space<D, N>, const D: usize, const N: usize>(
             }
         }
     }
-    // After a step that failed the world is not what it was before it.
-    let whole = matches!(end, End::Done | End::Interrupted);
-    if let Some(keeper) = keeper.as_mut().filter(|keeper| whole && keeper.checkpoints.due_at_bound(world.steps)) {
+    // Of a step that was not done nothing is left.
+    if let Some(keeper) = keeper.as_mut().filter(|keeper| keeper.checkpoints.due_at_bound(world.steps)) {
         keeper.keep(&mut audience, &mut summary, world, work);
     }
     audience.finish();

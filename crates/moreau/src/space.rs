@@ -15,6 +15,7 @@ pub use solid::Solid;
 use crate::shape::Shape;
 use crate::step::{StepError, StepRecord, Workspace};
 use crate::world::World;
+use std::sync::atomic::AtomicBool;
 
 mod sealed {
     pub trait Sealed {}
@@ -113,12 +114,12 @@ pub trait Space<const D: usize, const N: usize>: sealed::Sealed + Copy + Default
     /// The orientation that has these numbers, if they are some.
     fn from_numbers(numbers: [f64; 4]) -> Option<Self::Rotation>;
 
-    /// [`crate::step::step`] in this dimension: all that a step is made of is compiled here, once, and not in every program that
+    /// [`crate::step::step_until`] in this dimension: all that a step is made of is compiled here, once, and not in every program that
     /// calls it.
     ///
     /// # Errors
     /// As there.
-    fn step(world: &mut World<Self, D, N>, work: &mut Workspace<Self, D, N>) -> Result<StepRecord, StepError>;
+    fn step(world: &mut World<Self, D, N>, work: &mut Workspace<Self, D, N>, stop: &AtomicBool) -> Result<StepRecord, StepError>;
 }
 
 /// Whether numbers are those of an orientation: of length 1.

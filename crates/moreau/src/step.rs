@@ -16,14 +16,15 @@ mod record;
 mod state;
 mod system;
 mod turning;
+mod undo;
 mod workspace;
 
 pub use created::Created;
 pub use failed::{FAILED_KEPT, FailedSolve};
 pub use guard::Breach;
 pub use joints::Reaction;
-pub use moreau_jean::step;
 pub(crate) use moreau_jean::step_in;
+pub use moreau_jean::{step, step_until};
 pub use record::{Energy, Seconds, StepRecord};
 pub(crate) use state::WorkspaceState;
 pub use workspace::{Localised, Workspace};
@@ -45,6 +46,12 @@ pub enum StepError {
         eps_glob: f64,
         /// Scaled residual reached.
         scaled: f64,
+    },
+    /// It was asked to stop; see [`step_until`].
+    #[error("interrupted in the step to t = {time} s")]
+    Interrupted {
+        /// Time at the end of the step, s.
+        time: f64,
     },
     /// A solve left the finite numbers.
     #[error(

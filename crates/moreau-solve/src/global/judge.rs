@@ -7,6 +7,7 @@ use crate::block::Vector;
 use crate::report::{HistoryRow, Status};
 use crate::residual::{criterion, measure};
 use crate::{Operator, Problem, Residual, Settings};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Watches one solve.
@@ -14,6 +15,7 @@ pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
     problem: &'a Problem<'a, O, D>,
     settings: &'a Settings,
     deadline: Option<Instant>,
+    stop: &'a AtomicBool,
     /// Sweeps or steps done so far, by all methods of this solve.
     pub sweeps: u64,
     /// The number of sweeps at which the method at work has to hand over.
@@ -34,7 +36,7 @@ pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
 
 impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     /// `best` is memory of an earlier solve.
-    pub(crate) fn new(problem: &'a Problem<'a, O, D>, settings: &'a Settings, mut best: Best<D>) -> Self {
+    pub(crate) fn new(problem: &'a Problem<'a, O, D>, settings: &'a Settings, stop: &'a AtomicBool, mut best: Best<D>) -> Self {
         best.forget();
         // A limit beyond what a clock can hold is none.
         let deadline = settings.max_seconds.and_then(|s| Instant::now().checked_add(Duration::try_from_secs_f64(s).ok()?));
@@ -43,6 +45,7 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
             problem,
             settings,
             deadline,
+            stop,
             sweeps,
             limit,
             error: f64::INFINITY,
@@ -62,7 +65,7 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     /// none can be expected to end the solve: a measure costs what a sweep costs.
     pub(crate) fn after_sweep(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
         self.sweeps += 1;
-        let last = self.sweeps >= self.limit;
+        let last = self.sweeps >= self.limit || self.is_over();
         let due = self.sweeps >= self.next_check;
         if due {
             self.next_check = self.sweeps + if self.sweeps < 20 { 1 } else { self.sweeps / 16 };
@@ -121,6 +124,7 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
     fn unmet(&mut self, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
         let status = match () {
             () if !self.error.is_finite() => Some(Status::NotFinite),
+            () if self.is_stopped() => Some(Status::Interrupted),
             () if self.sweeps >= self.limit => Some(Status::MaxSweeps),
             () if self.is_late() => Some(Status::OutOfTime),
             () => None,
@@ -131,8 +135,17 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
         status
     }
 
-    /// Whether the clock has run out.
-    pub(crate) fn is_late(&self) -> bool {
+    /// Whether the solve ends however good it is: it was asked to stop, or the clock has run out. Asked after each sweep, for those of a large
+    /// problem that are measured may be minutes apart.
+    pub(crate) fn is_over(&self) -> bool {
+        self.is_stopped() || self.is_late()
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    fn is_late(&self) -> bool {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 

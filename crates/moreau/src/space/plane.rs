@@ -4,6 +4,7 @@ use super::{Space, is_unit};
 use crate::shape::PlaneShape;
 use crate::step::{StepError, StepRecord, Workspace, step_in};
 use crate::world::World;
+use std::sync::atomic::AtomicBool;
 
 /// Two dimensions, three degrees of freedom a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,7 +104,7 @@ impl Space<2, 3> for Plane {
         is_unit(&[c, s]).then_some([c, s])
     }
 
-    fn step(world: &mut World<Self, 2, 3>, work: &mut Workspace<Self, 2, 3>) -> Result<StepRecord, StepError> {
-        step_in(world, work)
+    fn step(world: &mut World<Self, 2, 3>, work: &mut Workspace<Self, 2, 3>, stop: &AtomicBool) -> Result<StepRecord, StepError> {
+        step_in(world, work, stop)
     }
 }

@@ -5,6 +5,7 @@ use crate::shape::SolidShape;
 use crate::step::{StepError, StepRecord, Workspace, step_in};
 use crate::world::World;
 use glam::{DMat3, DQuat, DVec3};
+use std::sync::atomic::AtomicBool;
 
 /// Three dimensions, six degrees of freedom a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -156,8 +157,8 @@ impl Space<3, 6> for Solid {
         is_unit(&numbers).then(|| DQuat::from_array(numbers))
     }
 
-    fn step(world: &mut World<Self, 3, 6>, work: &mut Workspace<Self, 3, 6>) -> Result<StepRecord, StepError> {
-        step_in(world, work)
+    fn step(world: &mut World<Self, 3, 6>, work: &mut Workspace<Self, 3, 6>, stop: &AtomicBool) -> Result<StepRecord, StepError> {
+        step_in(world, work, stop)
     }
 }
 

@@ -23,6 +23,7 @@ use super::system::Kind;
 use crate::space::Space;
 use crate::world::World;
 use moreau_solve::{Report, Stage, Status};
+use std::sync::atomic::AtomicBool;
 
 /// How many rounds may follow the first.
 const ROUNDS: u32 = 10;
@@ -32,17 +33,20 @@ const ROUNDS: u32 = 10;
 pub(super) fn solve<S: Space<D, N>, const D: usize, const N: usize>(
     world: &World<S, D, N>,
     work: &mut Workspace<S, D, N>,
-    kind: Kind,
-    h: f64,
+    (kind, h): (Kind, f64),
+    stop: &AtomicBool,
 ) -> Report {
     let settings = &world.settings.solver;
     if world.joints.is_empty() {
-        return work.systems.get(kind).solve(settings);
+        return work.systems.get(kind).solve(settings, stop);
     }
     let mut report = Report { status: Status::Stalled, ..Report::default() };
     if !work.contacts.is_empty() {
         // Where the impulses of contacts are not known, closing joints asks for velocities that sticking contacts cannot have.
-        report = work.systems.get(kind).solve(settings);
+        report = work.systems.get(kind).solve(settings, stop);
+        if report.status == Status::Interrupted {
+            return report;
+        }
     }
     for round in 0..=ROUNDS {
         let newton = newton::close(world, work, h);
@@ -60,7 +64,7 @@ pub(super) fn solve<S: Space<D, N>, const D: usize, const N: usize>(
             work.joints.shift(h);
             work.systems.full.shift(&work.joints.blocks);
         }
-        let again = work.systems.get(kind).solve(settings);
+        let again = work.systems.get(kind).solve(settings, stop);
         report = Report { sweeps: report.sweeps + again.sweeps, ..again };
         let before = work.joints.left;
         let closed = measure(world, work, h);

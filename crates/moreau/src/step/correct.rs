@@ -17,7 +17,7 @@ use super::integrate::predict;
 use super::localise::{margins, smaller, speed};
 use super::record::energies;
 use super::system::Kind;
-use super::{Localised, Workspace};
+use super::{Localised, StepError, Workspace};
 use crate::bodies::Bodies;
 use crate::contacts::Contact;
 use crate::shape::Shape;
@@ -26,6 +26,7 @@ use crate::world::World;
 use held::{Held, shift};
 use moreau_solve::{Criterion, Settings, Status, tasks};
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// How often the problem, which is linear in δ, is posed anew in one step: of a thousand stones that land half of what is left remains each time.
@@ -58,15 +59,19 @@ impl<const D: usize, const N: usize> Default for Correction<D, N> {
 
 /// Puts the positions right at the end of a step, if that is asked for and some overlap may be too deep there; gives the seconds that contacts
 /// were looked for.
+///
+/// # Errors
+/// [`StepError::Interrupted`] alone, as of all functions here.
 pub(super) fn at_end<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
-) -> f64 {
-    let Some(part) = world.settings.max_penetration else { return 0.0 };
+    stop: &AtomicBool,
+) -> Result<f64, StepError> {
+    let Some(part) = world.settings.max_penetration else { return Ok(0.0) };
     let clock = Instant::now();
     let doubt = doubt::may_be_too_deep(world, work, part);
     let seconds = clock.elapsed().as_secs_f64();
-    if doubt { seconds + positions(world, work, part, 0.0) } else { seconds }
+    Ok(if doubt { seconds + positions(world, work, (part, 0.0), stop)? } else { seconds })
 }
 
 /// Puts the positions right where contacts that were found at the prediction of a step of length `h` are too deep: of the solver's tolerance, of an impact
@@ -76,14 +81,15 @@ pub(super) fn at_start<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
     h: f64,
-) -> bool {
-    let Some(part) = world.settings.max_penetration else { return false };
+    stop: &AtomicBool,
+) -> Result<bool, StepError> {
+    let Some(part) = world.settings.max_penetration else { return Ok(false) };
     let too_deep = |range: Range<usize>| work.found[range].iter().any(|c| is_too_deep(&world.bodies, c, part));
     let too_deep = tasks::fold(0..work.found.len(), &too_deep, &|a, b| a || b);
     if too_deep {
-        positions(world, work, part, h);
+        positions(world, work, (part, h), stop)?;
     }
-    too_deep
+    Ok(too_deep)
 }
 
 /// Whether an overlap is deeper than is allowed; by rounding is not.
@@ -99,9 +105,9 @@ fn is_too_deep<S: Space<D, N>, const D: usize, const N: usize>(
 fn positions<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
-    part: f64,
-    ahead: f64,
-) -> f64 {
+    (part, ahead): (f64, f64),
+    stop: &AtomicBool,
+) -> Result<f64, StepError> {
     let mut seconds = 0.0;
     look_ahead(world, work, ahead);
     let since = world.settings.h;
@@ -123,14 +129,14 @@ fn positions<S: Space<D, N>, const D: usize, const N: usize>(
             ..TURNING => Kind::Normal,
             _ => Kind::Central,
         };
-        if !displace(world, work, part, kind) {
+        if !displace(world, work, (part, kind), stop)? {
             break;
         }
         look_ahead(world, work, ahead);
     }
     let (_, after) = energies(&world.bodies, &world.gravity);
     work.ledger.dissipate(before - after);
-    seconds
+    Ok(seconds)
 }
 
 /// Places the bodies where a step of length `h` looks for contacts.
@@ -169,9 +175,9 @@ fn detect<S: Space<D, N>, const D: usize, const N: usize>(world: &World<S, D, N>
 fn displace<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
-    part: f64,
-    kind: Kind,
-) -> bool {
+    (part, kind): (f64, Kind),
+    stop: &AtomicBool,
+) -> Result<bool, StepError> {
     if kind == Kind::Full {
         work.correction.held.place(world);
     }
@@ -188,7 +194,10 @@ fn displace<S: Space<D, N>, const D: usize, const N: usize>(
     }
     let system = work.systems.get(kind);
     let settings = Settings { criterion: Criterion::Scaled, tolerance: TOLERANCE, history: false, ..world.settings.solver };
-    let status = system.solve(&settings).status;
+    let status = system.solve(&settings, stop).status;
+    if status == Status::Interrupted {
+        return Err(StepError::Interrupted { time: world.time });
+    }
     correction.displacement.clear();
     correction.displacement.resize(bodies.len(), [0.0; N]);
     system.deposit(bodies, &work.middle, &mut correction.displacement);
@@ -196,5 +205,5 @@ fn displace<S: Space<D, N>, const D: usize, const N: usize>(
     if kind == Kind::Full {
         correction.held.restore(world, &mut work.joints.elimination);
     }
-    kind != Kind::Full || status == Status::Converged
+    Ok(kind != Kind::Full || status == Status::Converged)
 }

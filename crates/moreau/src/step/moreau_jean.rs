@@ -14,6 +14,7 @@ use moreau_solve::files::ProblemFile;
 use moreau_solve::residual::larger;
 use moreau_solve::{Report, Status, tasks};
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// In how many parts a step may be done.
@@ -22,21 +23,47 @@ const MOST_PARTS: u32 = 64;
 /// Advances the world by one step.
 ///
 /// # Errors
-/// [`StepError::Unconverged`] where the policy says to stop; the world is then as before the step, but for what
-/// events and drives did at its beginning; so it is after any error where steps may be halved.
+/// After any of them the world is as before the step.
+/// [`StepError::Unconverged`] where the policy says to stop,
 /// [`StepError::NotFinite`] where a velocity or position ceases to be a number, [`StepError::Overflow`] where a number of the record does,
 /// [`StepError::Breach`] where the step breaks a limit.
 pub fn step<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
 ) -> Result<StepRecord, StepError> {
-    S::step(world, work)
+    step_until(world, work, &AtomicBool::new(false))
 }
 
-/// [`step`], in whatever dimension.
+/// The same, unless `stop` is set before it is done: then it is given up within a sweep of the solver.
+///
+/// # Errors
+/// As [`step`], and [`StepError::Interrupted`].
+pub fn step_until<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    stop: &AtomicBool,
+) -> Result<StepRecord, StepError> {
+    S::step(world, work, stop)
+}
+
+/// [`step_until`], in whatever dimension.
 pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
+    stop: &AtomicBool,
+) -> Result<StepRecord, StepError> {
+    work.begin(world);
+    let done = whole(world, work, stop);
+    if done.is_err() {
+        work.take_back(world);
+    }
+    done
+}
+
+fn whole<S: Space<D, N>, const D: usize, const N: usize>(
+    world: &mut World<S, D, N>,
+    work: &mut Workspace<S, D, N>,
+    stop: &AtomicBool,
 ) -> Result<StepRecord, StepError> {
     let started = Instant::now();
     work.failed.last = None;
@@ -44,8 +71,8 @@ pub(crate) fn step_in<S: Space<D, N>, const D: usize, const N: usize>(
     work.ledger.bring(world.act());
     let mut record = StepRecord { step: world.steps + 1, bodies: world.bodies.present(), ..StepRecord::default() };
     let end = world.time + world.settings.h;
-    advance(world, work, &mut record, world.settings.h)?;
-    correct(world, work, &mut record)?;
+    advance(world, work, &mut record, world.settings.h, stop)?;
+    correct(world, work, &mut record, stop)?;
     world.steps += 1;
     // Halves add up to h only to rounding; the clock counts whole steps.
     world.time = end;
@@ -59,12 +86,13 @@ fn correct<S: Space<D, N>, const D: usize, const N: usize>(
     world: &mut World<S, D, N>,
     work: &mut Workspace<S, D, N>,
     record: &mut StepRecord,
+    stop: &AtomicBool,
 ) -> Result<(), StepError> {
     if world.settings.max_penetration.is_none() {
         return Ok(());
     }
     let dissipated = work.ledger.dissipated();
-    record.seconds.detect += correct::at_end(world, work);
+    record.seconds.detect += correct::at_end(world, work, stop)?;
     record.created.correction += larger(0.0, dissipated - work.ledger.dissipated());
     check_finite(world)?;
     close(world, work, record)?;
@@ -104,20 +132,22 @@ fn advance<S: Space<D, N>, const D: usize, const N: usize>(
     work: &mut Workspace<S, D, N>,
     record: &mut StepRecord,
     h: f64,
+    stop: &AtomicBool,
 ) -> Result<(), StepError> {
     let (solves, limits) = (world.settings.on_failure == OnFailure::Halve, world.guard.policy == OnBreach::Halve);
     if !solves && !limits {
-        return attempt(world, work, record, h);
+        return attempt(world, work, record, h, stop);
     }
     let (before, so_far) = (Before::of(world, &work.ledger), record.clone());
     let mut parts = 1;
     loop {
-        let result = (0..parts).try_for_each(|_| attempt(world, work, record, h / f64::from(parts)));
+        let result = (0..parts).try_for_each(|_| attempt(world, work, record, h / f64::from(parts), stop));
         let Err(error) = result else { return Ok(()) };
         before.restore(world, &mut work.ledger);
         let again = match error {
             StepError::Unconverged { .. } | StepError::SolveNotFinite { .. } => solves,
             StepError::OpenJoint { .. } | StepError::StrainedBody { .. } => solves,
+            StepError::Interrupted { .. } => false,
             StepError::NotFinite { .. } | StepError::Overflow { .. } | StepError::Breach { .. } => limits,
         };
         if !again || parts == MOST_PARTS {
@@ -135,6 +165,7 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     work: &mut Workspace<S, D, N>,
     record: &mut StepRecord,
     h: f64,
+    stop: &AtomicBool,
 ) -> Result<(), StepError> {
     let (theta, start) = (world.settings.theta, world.time);
     // 1-2 drives, forces, v_free = v + h M⁻¹ f
@@ -147,7 +178,7 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     let clock = Instant::now();
     assemble::detect(world, work, h);
     let dissipated = work.ledger.dissipated();
-    if correct::at_start(world, work, h) {
+    if correct::at_start(world, work, h, stop)? {
         assemble::detect(world, work, h);
     }
     let corrected = larger(0.0, dissipated - work.ledger.dissipated());
@@ -162,9 +193,12 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     if dumps || world.guard.dumps() {
         work.systems.get(kind).impulses(&mut work.failed.start);
     }
-    let report = closing::solve(world, work, kind, h);
+    let report = closing::solve(world, work, (kind, h), stop);
     record.seconds.solve += clock.elapsed().as_secs_f64();
     record.sweeps += report.sweeps;
+    if report.status == Status::Interrupted {
+        return Err(StepError::Interrupted { time: world.time + h });
+    }
     if report.status != Status::Converged {
         if dumps {
             keep_failed(world, work, kind, (world.time + h, &report));
@@ -182,17 +216,16 @@ fn attempt<S: Space<D, N>, const D: usize, const N: usize>(
     }
     work.after.clone_from(&work.free);
     work.systems.get(kind).deposit(&world.bodies, &work.middle, &mut work.after);
+    recall::remember(work, &world.bodies.velocity);
     record.h = h;
     let velocities = [work.free.as_slice(), work.after.as_slice()];
     let lift = work.ledger.book(&world.bodies, &world.gravity, velocities, &work.contacts, (h, theta), &mut work.balance);
     work.ledger.book_joints(&work.joints.blocks);
     let mut created = work.islands.created(&world.bodies, &work.contacts, &work.joints.blocks);
-    work.last.clone_from(&world.bodies.velocity);
     // 11 q⁺ = q_m + h θ v⁺
     let [taken, scheme] = integrate::advance(&mut world.bodies, &work.middle, velocities, &work.balance, (h, theta));
     work.ledger.dissipate(taken);
     (created.scheme, created.correction) = (scheme, corrected);
-    recall::remember(work);
     work.swept = report.sweeps;
     world.time += h;
     world.schedule.place(&mut world.bodies, world.time);

@@ -29,8 +29,10 @@ pub(super) fn recall<const D: usize>(previous: &[(ContactKey, [f64; D])], contac
     });
 }
 
-/// Keeps the impulses of a step that was taken, for the next to start from.
-pub(super) fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>) {
+/// Keeps the impulses of a step that was taken, for the next to start from, and the velocities at its beginning.
+pub(super) fn remember<S: Space<D, N>, const D: usize, const N: usize>(work: &mut Workspace<S, D, N>, velocity: &Vec<[f64; N]>) {
+    work.undo.put_aside(&mut work.previous, &mut work.last);
+    work.last.clone_from(velocity);
     let contacts = &work.contacts;
     tasks::fill(&mut work.previous, contacts.len(), |c| (contacts[c].contact.key, contacts[c].impulse));
     work.joints.remember();

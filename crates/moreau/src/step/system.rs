@@ -17,6 +17,7 @@ use crate::space::{Pose, Space};
 use moreau_solve::files::{FileError, ProblemFile, StoredProblem};
 use moreau_solve::{Balls, Cone, Delassus, MatrixFree, Problem, Report, Scratch, Settings, tasks};
 use operators::Assembled;
+use std::sync::atomic::AtomicBool;
 
 /// One contact problem with its memory.
 pub(super) struct System<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, const K: usize> {
@@ -69,8 +70,8 @@ pub(super) trait ContactSystem<S: Space<D, N>, const D: usize, const N: usize> {
     /// those that it had.
     fn fill(&mut self, bodies: &Bodies<S, D, N>, middle: &[Pose<S::Rotation, D>], contacts: &[Localised<D>], curve: &mut Curve);
 
-    /// Finds the impulses.
-    fn solve(&mut self, settings: &Settings) -> Report;
+    /// Finds the impulses, if nobody sets `stop`.
+    fn solve(&mut self, settings: &Settings, stop: &AtomicBool) -> Report;
 
     /// The impulses of now, D of each contact.
     fn impulses(&self, all: &mut Vec<f64>);
@@ -104,9 +105,9 @@ impl<O: Assembled<S, D, N, K>, S: Space<D, N>, const D: usize, const N: usize, c
         tasks::fill(&mut self.r, n, |c| std::array::from_fn(|i| contacts[c].impulse[i]));
     }
 
-    fn solve(&mut self, settings: &Settings) -> Report {
+    fn solve(&mut self, settings: &Settings, stop: &AtomicBool) -> Report {
         let problem = Problem { operator: &self.operator, q: &self.q, cones: &self.cones };
-        moreau_solve::solve(&problem, settings, &mut self.r, &mut self.scratch)
+        moreau_solve::solve_until(&problem, settings, stop, &mut self.r, &mut self.scratch)
     }
 
     fn impulses(&self, all: &mut Vec<f64>) {

@@ -7,6 +7,7 @@ use super::joints::{Reaction, StepJoints};
 use super::localise::Spins;
 use super::record::{Balance, Ledger};
 use super::system::Systems;
+use super::undo::Undo;
 use crate::contacts::{Contact, ContactKey};
 use crate::detect::Detector;
 use crate::space::curve::Curve;
@@ -110,6 +111,7 @@ pub struct Workspace<S: Space<D, N>, const D: usize, const N: usize> {
     pub(super) balance: Vec<Balance>,
     pub(super) islands: Islands,
     pub(super) failed: Failed,
+    pub(super) undo: Undo<S, D, N>,
     pub(crate) history: Vec<HistoryRow>,
 }
 
@@ -139,6 +141,7 @@ impl<S: Space<D, N>, const D: usize, const N: usize> Default for Workspace<S, D,
             balance: Vec::new(),
             islands: Islands::default(),
             failed: Failed::default(),
+            undo: Undo::default(),
             history: Vec::new(),
         }
     }

@@ -97,7 +97,7 @@ impl<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize
         let sweep = judge.sweeps + 1;
         let expected = self.packing.ratio * change;
         let settings = &self.work.settings;
-        expected <= settings.tolerance || sweep >= self.next_look.min(judge.limit) || settings.history || judge.is_late()
+        expected <= settings.tolerance || sweep >= self.next_look.min(judge.limit) || settings.history || judge.is_over()
     }
 
     /// Looks at the criterion after a sweep; certifies the answer where it ends the solve.
@@ -111,7 +111,7 @@ impl<'a, 'b, 'c, O: Operator<D>, K: Kernel<B, C>, const D: usize, const B: usize
         self.next_look = sweeps + (sweeps / 4).max(4);
         let mut error = if exact { seen } else { self.packing.scale * seen };
         let ends =
-            error <= settings.tolerance || !error.is_finite() || sweeps >= self.work.judge.limit || self.work.judge.is_late();
+            error <= settings.tolerance || !error.is_finite() || sweeps >= self.work.judge.limit || self.work.judge.is_over();
         // What the last certificate tells of another criterion is true to some factor, and less so the older it is.
         let stale = !exact && (error <= NEAR * settings.tolerance || sweeps >= 2 * self.certified_at);
         if ends || stale || settings.history || self.packing.scale == 0.0 {
