@@ -32,7 +32,7 @@ pub(crate) fn check(args: &Args) -> Result<(), Failure> {
 fn rows<S: Space<D, N>, const D: usize, const N: usize>(scene: &Scene, world: &World<S, D, N>) -> Vec<Vec<String>> {
     let bodies = &world.bodies;
     let free = (0..bodies.len()).filter(|&i| bodies.is_free(i)).count();
-    let mass: f64 = (0..bodies.len()).filter(|&i| bodies.is_free(i)).map(|i| bodies.mass[i][0]).sum();
+    let mass: f64 = (0..bodies.len()).filter(|&i| bodies.is_free(i)).map(|i| bodies.mass[i][0]).fold(0.0, |sum, mass| sum + mass);
     let mut low = [f64::INFINITY; D];
     let mut high = [f64::NEG_INFINITY; D];
     for (shape, pose) in bodies.shape.iter().zip(&bodies.pose) {

@@ -101,3 +101,31 @@ fn the_energy_of_a_chain_swings_by_the_square_of_the_step() {
     let (coarse, fine) = (swing(1e-3), swing(2.5e-4));
     assert!(fine < coarse / 14.0 && fine > coarse / 18.0 && coarse < 3e-2, "{coarse} J and {fine} J");
 }
+
+/// A pendulum that is held at first and set free later is one that was free from the start, so many steps later.
+#[test]
+fn a_joint_may_wait_for_its_body_to_be_freed() {
+    let bar = |motion: &str| {
+        format!(
+            "{}[[bodies]]\nname = \"bar\"\n{motion}shape.box = {{ size = [0.5, 0.05, 0.05] }}\nmaterial = \"steel\"\n\
+             position = [0.25, 0.0, 0.0]\n[[joints]]\nkind.hinge = {{ anchor = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0] }}\nbetween = [\"bar\"]\n",
+            head(3, 1e-3)
+        )
+    };
+    let held = "motion = \"fixed\"\ndrive = [{ from = 0.1, motion = \"free\" }]\n";
+    let (mut held, mut free) = (solid(&bar(held)), solid(&bar("")));
+    let (mut work, mut other) = (Workspace::default(), Workspace::default());
+    let start = held.bodies.pose[0];
+    for _ in 0..100 {
+        let record = step(&mut held, &mut work).unwrap();
+        assert!(record.converged() && record.joint_error == 0.0, "{record:?}");
+    }
+    assert_eq!(held.bodies.pose[0], start);
+    for k in 0..400 {
+        step(&mut held, &mut work).unwrap();
+        step(&mut free, &mut other).unwrap();
+        let apart = (0..3).map(|i| (held.bodies.pose[0].position[i] - free.bodies.pose[0].position[i]).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-12, "{apart} after {k} steps");
+    }
+    assert!(free.bodies.pose[0].position[2] < -0.2, "it swings: {:?}", free.bodies.pose[0]);
+}

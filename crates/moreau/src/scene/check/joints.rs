@@ -3,7 +3,7 @@
 use super::{bodies::nonzero, plural, vector};
 use crate::scene::error::{Fault, nearest};
 use crate::scene::path::{KeyPath, key_path};
-use crate::scene::{JointKindSpec, JointSpec, MotionKind, Scene};
+use crate::scene::{BodySpec, JointKindSpec, JointSpec, MotionKind, Scene};
 use std::collections::BTreeMap;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
@@ -19,7 +19,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
     Ok(())
 }
 
-/// One or two bodies that there are, of which one can move.
+/// One or two bodies that there are, of which one is free, if only later.
 fn between(scene: &Scene, joint: &JointSpec, path: &KeyPath) -> Result<(), Fault> {
     if !(1..=2).contains(&joint.between.len()) {
         let message = format!("{} names where a joint has one or two", joint.between.len());
@@ -33,7 +33,8 @@ fn between(scene: &Scene, joint: &JointSpec, path: &KeyPath) -> Result<(), Fault
             let hint = nearest(name, "names of bodies", single.chain(firsts.iter().map(String::as_str)));
             return Err(Fault::new(path.then(k), format!("no body is named `{name}`"), hint));
         };
-        free |= scene.motion_of(body) == Some(MotionKind::Free);
+        let later = scene.bodies.get(body).is_some_and(BodySpec::is_ever_free);
+        free |= later || scene.motion_of(body) == Some(MotionKind::Free);
     }
     if joint.between.len() == 2 && joint.between[0] == joint.between[1] {
         return Err(Fault::new(
@@ -46,7 +47,7 @@ fn between(scene: &Scene, joint: &JointSpec, path: &KeyPath) -> Result<(), Fault
         return Err(Fault::new(
             path.clone(),
             "a joint of bodies that do not give way",
-            "expected at least one body that is free",
+            "expected at least one body that is free, from the start or by one of its drives",
         ));
     }
     Ok(())
