@@ -238,10 +238,10 @@ pub fn solve_until<O: Operator<D>, const D: usize>(
     let mut work = Work { problem, settings: *settings, r, scratch, judge, stages: Vec::new() };
     let status = if problem.is_empty() { work.certify().unwrap_or(Status::Stalled) } else { work.run(settings.global) };
     let Work { r, scratch, judge, mut stages, .. } = work;
-    let Judge { sweeps, certificate, mut best, unfinished_visits, history, .. } = judge;
+    let Judge { sweeps, certificate, mut best, unfinished_visits, history, unseen, .. } = judge;
     // What ended the solve has measured all that there is to say.
     let certificate = certificate.filter(|_| status == Status::Converged);
-    let residual = certificate.unwrap_or_else(|| settle(problem, settings, r, scratch, &mut best));
+    let residual = certificate.unwrap_or_else(|| settle(problem, settings, r, scratch, (&mut best, !unseen)));
     scratch.kept = best;
     if stages.is_empty() {
         stages.push(Stage { method: settings.global, sweeps, error: residual.of(settings.criterion), status });

@@ -46,7 +46,7 @@ impl<const D: usize> Best<D> {
     }
 }
 
-/// Leaves in `r` the better of its impulses and the best ones, and measures these from the impulses alone.
+/// Leaves in `r` the better of its impulses and the best ones, or these in any case where its own were not `seen`, and measures them from the impulses alone.
 ///
 /// Impulses that are not finite never remain: without better ones they become zero.
 pub(super) fn settle<O: Operator<D>, const D: usize>(
@@ -54,12 +54,16 @@ pub(super) fn settle<O: Operator<D>, const D: usize>(
     settings: &Settings,
     r: &mut [Vector<D>],
     scratch: &mut Scratch<O::State, D>,
-    best: &mut Best<D>,
+    (best, seen): (&mut Best<D>, bool),
 ) -> Residual {
     let measured = |r: &[Vector<D>], scratch: &mut Scratch<O::State, D>| {
         problem.operator.start(r, &mut scratch.state);
         measure(problem, &scratch.state, r, claims(&scratch.claimed))
     };
+    if !seen {
+        best.exchange(r, &mut scratch.claimed);
+        return measured(r, scratch);
+    }
     let last = measured(r, scratch);
     let error = last.of(settings.criterion);
     if best.error.is_finite() && (error.is_nan() || best.error < error) {

@@ -32,6 +32,8 @@ pub(crate) struct Judge<'a, O: Operator<D>, const D: usize> {
     pub best: Best<D>,
     next_check: u64,
     skip_to: u64,
+    /// Whether the solve ended after a sweep that was not measured: the best impulses are the answer.
+    pub unseen: bool,
 }
 
 impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
@@ -56,22 +58,29 @@ impl<'a, O: Operator<D>, const D: usize> Judge<'a, O, D> {
             best,
             next_check: 1,
             skip_to: 0,
+            unseen: false,
         }
     }
 
     /// After a sweep that left the impulses `r`, for which `state` stands: how the method ends, if it does.
     ///
     /// Every one of the first twenty sweeps is measured and then every sixteenth part of those done, but not where
-    /// none can be expected to end the solve: a measure costs what a sweep costs.
+    /// none can be expected to end the solve: a measure costs what a sweep costs. The last one is measured where another method follows it. At the
+    /// limit of the whole solve it is not: what counts are then the same sweeps as under any higher limit, so a higher limit never gives a worse answer.
     pub(crate) fn after_sweep(&mut self, state: &mut O::State, r: &[Vector<D>], claimed: Option<&[Vector<D>]>) -> Option<Status> {
         self.sweeps += 1;
-        let last = self.sweeps >= self.limit || self.is_over();
+        let is_end = self.sweeps >= self.settings.max_sweeps && self.best.error.is_finite();
+        let last = self.sweeps >= self.limit && !is_end || self.is_over();
         let due = self.sweeps >= self.next_check;
         if due {
             self.next_check = self.sweeps + if self.sweeps < 20 { 1 } else { self.sweeps / 16 };
         }
         let worthwhile = self.settings.history || last || due && self.sweeps >= self.skip_to;
-        if worthwhile { self.measured(state, r, claimed) } else { None }
+        if worthwhile {
+            return self.measured(state, r, claimed);
+        }
+        self.unseen = is_end;
+        is_end.then_some(Status::MaxSweeps)
     }
 
     /// The same after a step that is worth measuring each time.
