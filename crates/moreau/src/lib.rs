@@ -28,3 +28,8 @@ pub mod trajectory;
 pub mod world;
 
 pub use moreau_solve as solve;
+
+// The program of the README is run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

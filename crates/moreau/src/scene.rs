@@ -299,7 +299,7 @@ impl Scene {
 
 /// A commented scene to begin with, for `moreau new`.
 pub fn template(name: &str) -> String {
-    let text = include_str!("../../../scenes/template.toml");
+    let text = include_str!("scene/template.toml");
     // The schema lies beside the shipped scenes, not beside the new one; a name is TOML text only without quotes and breaks.
     let name: String = name.chars().filter(|c| !c.is_control() && !['"', '\\'].contains(c)).collect();
     let lines = text.lines().filter(|line| !line.starts_with("#:schema"));
