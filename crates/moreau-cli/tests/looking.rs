@@ -148,3 +148,18 @@ fn a_run_that_was_killed_can_be_looked_at() {
     assert!(steps.len() > 1 && steps[0] == 0, "{} frames", steps.len());
     assert!(meta["verdict"]["steps"].as_u64() >= steps[steps.len() - 1].as_u64());
 }
+
+/// A scene of a few bytes that was put beside the trajectory of another run asks for more memory than there is.
+#[test]
+fn a_scene_of_another_run_is_not_built_to_be_counted() {
+    let place = Place::with("ten.toml", TEN);
+    place.moreau(&["run", "ten.toml", "--out", "ten", "--quiet"]).fine();
+    let scene = place.read("ten/scene.toml");
+    assert!(scene.contains("count = 10"), "{scene}");
+    for count in ["12", "4000000000"] {
+        place.write("ten/scene.toml", scene.replace("count = 10", &format!("count = {count}")).replace("0.03", "3000.0"));
+        for words in [["report", "ten"], ["render", "ten"]] {
+            place.moreau(&words).fails(1, &["they are of two runs", "the trajectory has 15"]);
+        }
+    }
+}

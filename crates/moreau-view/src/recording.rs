@@ -41,6 +41,9 @@ pub enum RecordingError {
     },
 }
 
+/// So many bodies, and half of those that a scene is expected to have, are built to be counted.
+const SLACK: usize = 1000;
+
 /// A run that is over, was killed, or goes on.
 pub struct Recording {
     /// What was run.
@@ -67,14 +70,20 @@ impl Recording {
         }
         let trajectory = Trajectory::open(&path)?;
         let scene = Scene::load(&folder.join("scene.toml"))?;
+        let count = trajectory.header().radius.len();
+        let of_two_runs = |bodies: usize| RecordingError::Bodies { folder: folder.to_owned(), scene: bodies, trajectory: count };
+        // A scene of a few bytes can ask for more bodies than there is memory for; those of the run were seen in the trajectory.
+        let expected = usize::try_from(scene.estimate().bodies).unwrap_or(usize::MAX);
+        if expected / 2 > count + SLACK {
+            return Err(of_two_runs(expected));
+        }
         let world = scene.build(u64::MAX)?;
         let bodies = match &world {
             AnyWorld::Plane(world) => world.bodies.len(),
             AnyWorld::Solid(world) => world.bodies.len(),
         };
-        if bodies != trajectory.header().radius.len() {
-            let (folder, trajectory) = (folder.to_owned(), trajectory.header().radius.len());
-            return Err(RecordingError::Bodies { folder, scene: bodies, trajectory });
+        if bodies != count {
+            return Err(of_two_runs(bodies));
         }
         let columns = trajectory.columns()?;
         let measures = Measures::read(&folder.join("measures.csv"));
