@@ -1,4 +1,4 @@
-//! Boxes on boxes: against closed forms, and against distances found by projecting to and fro.
+//! Boxes on boxes: against closed forms, and against distances found by trying all corners and edges.
 
 use super::*;
 use proptest::prelude::*;
@@ -96,23 +96,72 @@ fn a_corner_stands_on_a_face_and_corners_have_the_direction_between_them() {
     assert!(found.len() == 1 && (found[0].3 - 0.7).abs() < 1e-14 && (DVec3::from(found[0].2) - n).length() < 1e-14, "{found:?}");
 }
 
-/// The distance of two boxes that are apart: the nearest point of one to the nearest point of the other, again and again.
-fn distance(a: Cuboid, pose_a: Pose, b: Cuboid, pose_b: Pose) -> f64 {
-    let project = |cuboid: Cuboid, pose: Pose, x: DVec3| {
-        let local = pose.rotation.conjugate() * (x - DVec3::from(pose.position));
-        DVec3::from(pose.position) + pose.rotation * local.clamp(-DVec3::from(cuboid.half), DVec3::from(cuboid.half))
-    };
-    let (mut x, mut y) = (DVec3::from(pose_a.position), DVec3::from(pose_b.position));
-    // Slow where faces are nearly parallel: ended where nothing moves any more.
-    for _ in 0..2_000_000 {
-        let before = (x, y);
-        x = project(a, pose_a, y);
-        y = project(b, pose_b, x);
-        if (before.0 - x).length() + (before.1 - y).length() < 1e-13 {
-            break;
+/// A box with its axes and corners in the world, for the slow computations below.
+struct Placed {
+    half: DVec3,
+    pose: Pose,
+    axes: [DVec3; 3],
+    corners: [DVec3; 8],
+}
+
+impl Placed {
+    fn new(cuboid: Cuboid, pose: Pose) -> Self {
+        let half = DVec3::from(cuboid.half);
+        let sign = |i: usize, k: usize| if i >> k & 1 == 0 { -1.0 } else { 1.0 };
+        let corner = |i: usize| half * DVec3::new(sign(i, 0), sign(i, 1), sign(i, 2));
+        Self {
+            half,
+            pose,
+            axes: DVec3::AXES.map(|axis| pose.rotation * axis),
+            corners: std::array::from_fn(|i| DVec3::from(pose.position) + pose.rotation * corner(i)),
         }
     }
-    (x - y).length()
+
+    /// Returns the point of the box that is nearest to `x`.
+    fn nearest(&self, x: DVec3) -> DVec3 {
+        let local = self.pose.rotation.conjugate() * (x - DVec3::from(self.pose.position));
+        DVec3::from(self.pose.position) + self.pose.rotation * local.clamp(-self.half, self.half)
+    }
+
+    fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> {
+        let ends = |i: usize, k: usize| (i >> k & 1 == 0).then(|| [self.corners[i], self.corners[i | 1 << k]]);
+        (0..8).flat_map(move |i| (0..3).filter_map(move |k| ends(i, k)))
+    }
+}
+
+/// Returns the greatest separation of two boxes over their normals and the cross products of their edges. It is negative where the boxes overlap:
+/// then it is minus the length of the shortest translation that parts them.
+fn separation(a: &Placed, b: &Placed) -> f64 {
+    let crosses = a.axes.iter().flat_map(|u| b.axes.iter().map(|v| u.cross(*v).normalize_or_zero()));
+    let directions = a.axes.into_iter().chain(b.axes).chain(crosses).filter(|n| *n != DVec3::ZERO).flat_map(|n| [n, -n]);
+    let least = |of: &Placed, n: DVec3| of.corners.iter().map(|corner| n.dot(*corner)).fold(f64::INFINITY, f64::min);
+    directions.map(|n| least(b, n) + least(a, -n)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Returns the distance of two boxes, 0 where they overlap. It is that of a corner of one to the other box or that of an edge of each, and all of
+/// these are tried.
+///
+/// Alternating projections would be shorter and are wrong. Between two faces at a small angle α a projection reduces the error by a part of about α²,
+/// so millions of them leave a distance that is too large.
+fn distance(a: &Placed, b: &Placed) -> f64 {
+    if separation(a, b) <= 0.0 {
+        return 0.0;
+    }
+    let to_box =
+        |from: &Placed, to: &Placed| from.corners.map(|x| x.distance(to.nearest(x))).into_iter().fold(f64::INFINITY, f64::min);
+    let between = |[p, q]: [DVec3; 2], [r, e]: [DVec3; 2]| {
+        let (u, v, w) = (q - p, e - r, r - p);
+        let across = u.cross(v);
+        // Parallel edges are nearest at an end too, and the ends are corners.
+        let [s, t] = if across == DVec3::ZERO {
+            [0.0; 2]
+        } else {
+            [v, u].map(|other| w.cross(other).dot(across) / across.length_squared())
+        };
+        (p + s.clamp(0.0, 1.0) * u).distance(r + t.clamp(0.0, 1.0) * v)
+    };
+    let edges = a.edges().flat_map(|one| b.edges().map(move |other| between(one, other)));
+    edges.fold(to_box(a, b).min(to_box(b, a)), f64::min)
 }
 
 fn cuboid() -> impl Strategy<Value = Cuboid> {
@@ -138,12 +187,16 @@ proptest! {
         prop_assert!(!found.is_empty() && found.len() <= 4);
         let least = found.iter().map(|contact| contact.3).fold(f64::INFINITY, f64::min);
         prop_assert!(found.iter().all(|(_, _, n, _)| (DVec3::from(*n).length() - 1.0).abs() < 1e-12));
-        // Moved along the normal until they are a hundredth apart, they are; if they overlap they are moved apart.
-        let (n, aside) = (DVec3::from(found[0].2), if least > 0.0 { 0.0 } else { 0.01 - least });
-        let moved = at((DVec3::from(pose_b.position) + aside * n).to_array(), turn_b);
-        let right = distance(a, pose_a, b, moved);
-        let expected = if least > 0.0 { least } else { 0.01 };
-        prop_assert!((right - expected).abs() < 1e-6, "{expected} is not {right}; the gap is {least}");
+        let placed = |shift: DVec3| Placed::new(b, at((DVec3::from(pose_b.position) + shift).to_array(), turn_b));
+        let (first, second) = (Placed::new(a, pose_a), placed(DVec3::ZERO));
+        let right = separation(&first, &second).min(0.0) + distance(&first, &second);
+        // Of directions that are as good as each other to within what is level, a face comes first.
+        let level = 2e-9 * (DVec3::from(a.half).length() + DVec3::from(b.half).length());
+        prop_assert!((least - right).abs() < level, "the gap is {right} and not {least}");
+        // Moved along the normal until they are a hundredth apart, they are.
+        let normal = found.iter().min_by(|x, y| x.3.total_cmp(&y.3)).map(|contact| DVec3::from(contact.2));
+        let moved = distance(&first, &placed((0.01 - least) * normal.unwrap()));
+        prop_assert!((moved - 0.01).abs() < level, "{moved} is not 0.01; the gap was {least}");
         // The other way round the same.
         let back = contacts(b, pose_b, a, pose_a, 5.0);
         let other = back.iter().map(|contact| contact.3).fold(f64::INFINITY, f64::min);
