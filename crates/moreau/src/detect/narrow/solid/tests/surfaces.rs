@@ -40,6 +40,13 @@ fn distance(corners: [DVec3; 3], x: DVec3) -> f64 {
     (0..3).map(|k| to_edge(edge(k))).fold(f64::INFINITY, f64::min)
 }
 
+/// Returns false if a point is straight below a triangle.
+fn is_over([a, b, c]: [DVec3; 3], x: DVec3) -> bool {
+    let n = (b - a).cross(c - a);
+    let beside = [(a, b), (b, c), (c, a)].into_iter().any(|(p, q)| (q - p).truncate().perp_dot((x - p).truncate()) < 0.0);
+    beside || n.dot(x - a) > 0.0
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -53,6 +60,8 @@ proptest! {
         let mesh = surface.mesh();
         let triangle = |i: usize| mesh.triangles[i].map(|k| DVec3::from(mesh.points[k as usize]));
         let centre = DVec3::new(x, y, height(x, y) + 0.2 * rough + above);
+        // Between its heights the field is flat, so that the centre may be behind it.
+        prop_assume!((0..mesh.triangles.len()).all(|i| is_over(triangle(i), centre)));
         let right = (0..mesh.triangles.len()).map(|i| distance(triangle(i), centre)).fold(f64::INFINITY, f64::min) - radius;
         let found = contacts(&surface, Ball { radius }, at(centre.to_array(), UP), 1.0);
         let least = found.iter().map(|contact| contact.3).fold(f64::INFINITY, f64::min);
@@ -60,7 +69,9 @@ proptest! {
         prop_assert!((least - right).abs() < 1e-12 || right > 1.0, "{least} is not {right}");
         for (i, (_, point, normal, gap)) in found.iter().enumerate() {
             let (point, normal) = (DVec3::from(*point), DVec3::from(*normal));
-            prop_assert!((point - centre + (radius + 0.5 * gap) * normal).length() < 1e-12);
+            // A normal that differs from a triangle's by less than 1e-7 counts as the triangle's.
+            let arm = radius + 0.5 * gap;
+            prop_assert!((point - centre + arm * normal).length() < 1e-12 + 1e-7 * arm.abs());
             prop_assert!(found[..i].iter().all(|other| (DVec3::from(other.1) - point).length() > 1e-9), "a point twice: {found:?}");
         }
     }
