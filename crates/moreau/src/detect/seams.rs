@@ -175,7 +175,7 @@ impl<const D: usize> Seams<D> {
         };
         for over in pieces.iter().filter(may_hide) {
             let lifted = Lifted::new(scene, patch, over);
-            if lifted.is_beside(patch, own) && !lifted.still_touches(patch, own[0].key, &mut self.lifted) {
+            if lifted.is_beside(patch, own) && !lifted.still_touches(patch, own, &mut self.lifted) {
                 self.hidden[range].fill(true);
                 for contact in self.lifted.drain(..) {
                     if !self.instead.iter().any(|known| known.key == contact.key) {

@@ -1,6 +1,6 @@
 //! What a body touches when it is lifted out of the piece that it has sunk into.
 
-use super::Patch;
+use super::{Patch, SAME};
 use crate::contacts::{Contact, ContactKey};
 use crate::detect::Scene;
 use crate::detect::narrow::part_bits;
@@ -8,7 +8,7 @@ use crate::detect::narrow::vector::{along, dot};
 use crate::shape::Shape;
 use crate::space::{Pose, Space, placed};
 
-/// One minus the cosine of the angle within which normals of the body and of the lifted body are those of one contact.
+/// One minus the cosine of the angle by which the normal of a contact may turn when the body is lifted.
 const TURNED: f64 = 1e-3;
 
 /// Cosine of the angle between two normals beyond which two pieces may be far apart.
@@ -94,10 +94,14 @@ impl<'a, S: Space<D, N>, const D: usize, const N: usize> Lifted<'a, S, D, N> {
         })
     }
 
-    /// True if the lifted body touches the other piece along the normal of the patch; if not, `found` has what it touches, put back to
-    /// where the body is. The key is that of a contact of the patch.
-    pub(super) fn still_touches(&self, patch: &Patch<D>, key: ContactKey, found: &mut Vec<Contact<D>>) -> bool {
+    /// True if the lifted body still has one of the contacts of the patch, or another one with the same normal. If not, `found` has what it touches,
+    /// put back to where the body is.
+    ///
+    /// A contact on a curved body may turn a little when it is lifted, and is known by its feature. Another contact with nearly the same normal is no
+    /// proof: a capsule that lies over a cylinder still touches it in the middle when its round end does not.
+    pub(super) fn still_touches(&self, patch: &Patch<D>, contacts: &[Contact<D>], found: &mut Vec<Contact<D>>) -> bool {
         found.clear();
+        let key = contacts[0].key;
         let parts = part_bits(key.feature, self.has_parts);
         let pose = Pose { position: along(self.body.pose.position, 1.0, self.shift), rotation: self.body.pose.rotation };
         let is_first = patch.of.0 == key.a;
@@ -107,7 +111,8 @@ impl<'a, S: Space<D, N>, const D: usize, const N: usize> Lifted<'a, S, D, N> {
             if gap > self.closed {
                 return;
             }
-            still |= sign * dot(normal, patch.normal) > 1.0 - TURNED;
+            let is_known = contacts.iter().any(|contact| contact.key.feature == parts | feature);
+            still |= sign * dot(normal, patch.normal) > 1.0 - if is_known { TURNED } else { SAME };
             // The body's point moves back by the shift, the point half-way by half of it.
             let gap = gap - sign * dot(normal, self.shift);
             if gap <= self.reach {
