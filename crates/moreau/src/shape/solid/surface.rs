@@ -140,6 +140,8 @@ impl Surface {
         let normal = self.normal(triangle);
         match on {
             On::Face | On::Off => false,
+            // Between triangles of one plane only their normal, which is that of the front.
+            On::Edge(_) if self.is_flat(triangle, on) => false,
             On::Edge(k) => {
                 let corners = self.corners(triangle);
                 let way = unit(sub(corners[(k + 1) % 3], corners[k]));

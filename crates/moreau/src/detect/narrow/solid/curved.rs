@@ -150,17 +150,21 @@ fn points_along<A: Convex, B: Convex>(best: &Best<'_, A, B>, direction: &Directi
     points
 }
 
-/// The point half-way between the two that the direction comes from, or else between the highest corner of the first body and the lowest of the
-/// second.
+/// The point half-way between the two that the direction comes from. A direction that is the normal of a face comes from none: then the point is
+/// straight over that face, at the highest corner of the first body or the lowest of the second.
 fn between<A: Convex, B: Convex>(best: &Best<'_, A, B>, direction: &Direction, touch: &Touch) -> Point {
     let &Direction { normal, apart, pair } = direction;
     let highest = |patch: &Patch, sign: f64| {
         let height = |k: usize| sign * dot(normal, patch.corners()[k].at);
         patch.corners()[(1..patch.corners().len()).fold(0, |best, k| if height(k) > height(best) { k } else { best })]
     };
-    let a = highest(&best.a.patch(normal, touch.level), 1.0);
-    let b = highest(&best.b.patch(normal.map(|x| -x), touch.level), -1.0);
-    let [on_a, on_b] = pair.unwrap_or([a.at, b.at]);
+    let patches = [best.a.patch(normal, touch.level), best.b.patch(normal.map(|x| -x), touch.level)];
+    let (a, b) = (highest(&patches[0], 1.0), highest(&patches[1], -1.0));
+    let [on_a, on_b] = pair.unwrap_or(match [patches[0].normal, patches[1].normal] {
+        [None, Some(_)] => [a.at, along(a.at, apart, normal)],
+        [Some(_), None] => [along(b.at, -apart, normal), b.at],
+        _ => [a.at, b.at],
+    });
     let (on_a, on_b) = (along(on_a, touch.radii[0], normal), along(on_b, -touch.radii[1], normal));
     let at = std::array::from_fn(|k| 0.5 * (on_a[k] + on_b[k]));
     Point { feature: feature(2, a.id, b.id), at, normal, gap: apart - touch.grown() }

@@ -3,7 +3,8 @@
 //! A point that a triangle has with the body counts where its normal is the triangle's own, or where it is on an edge or at a corner and
 //! its normal is one of the surface there, between those of the triangles around it. Any other point is a trace of the subdivision: a body
 //! that slides over a plane of many triangles meets their borders, and must not feel them. Where such a point lies in a plane part of the
-//! surface, and the body is in it, the points along the triangle's normal stand in for it. A body that is in the surface and has traces alone,
+//! surface, the points along the triangle's normal stand in for it. The same holds where the surface bends a little and the point's normal is nearly the
+//! triangle's: such a body lies on the triangle and is tilted. A body that is in the surface and has traces alone,
 //! because it is deeper than triangles are wide, is met by the one triangle that it leaves soonest along its normal. Points that face the back of a triangle do not
 //! count: a body that is more than half through a surface in one step falls through it, and calls for a shorter step.
 //!
@@ -17,7 +18,7 @@ mod triangle;
 use super::Pose;
 use super::curved::seen_from;
 use super::facets::{self, Corners, Seen};
-use crate::detect::narrow::common::{LEVEL, on_piece};
+use crate::detect::narrow::common::{CLOSE, LEVEL, SAME, on_piece};
 use crate::detect::narrow::vector::{along, dot, sub};
 use crate::mesh::Aabb;
 use crate::shape::solid::{Faceted, On, Surface};
@@ -144,20 +145,28 @@ impl<B: Touches> Query<'_, B> {
         let level = 16.0 * LEVEL * (triangle.radius() + there.body.size());
         let first = found.len();
         let (mut flat, mut bent) = (false, false);
+        // The least gap along a normal that is nearly the front's.
+        let mut nearly = f64::INFINITY;
         B::touch(there, &triangle, self.reach, &mut |own, point, normal, gap| {
             let feature = on_piece(number, own);
             if surface.is_front(number, normal) {
                 found.push(Found { feature, point, normal: front, gap });
                 return;
             }
+            if dot(normal, front) > 1.0 - SAME && gap.abs() <= CLOSE * LEVEL * there.body.size() {
+                nearly = nearly.min(gap);
+            }
             let on = surface.place(number, along(point, -0.5 * gap, normal), level);
             if surface.admits(number, on, normal) {
                 found.push(Found { feature, point, normal, gap });
-            } else if gap <= level && on != On::Off {
+            } else if on != On::Off {
                 flat |= surface.is_flat(number, on);
-                bent = true;
+                bent |= gap <= level;
             }
         });
+        if nearly < f64::INFINITY && self.take_front(&triangle, number, nearly + level, first, found) {
+            return;
+        }
         let in_front = dot(front, sub(position, triangle.corners[0])) > 0.0;
         if flat && in_front {
             found.truncate(first);
@@ -169,6 +178,20 @@ impl<B: Touches> Query<'_, B> {
                 *deep = Some((gap, number));
             }
         }
+    }
+
+    /// Replaces the points from `first` on by those along the normal of a triangle, if one of these has no greater gap than `least`. Returns
+    /// whether it did.
+    fn take_front(&self, triangle: &Triangle, number: usize, least: f64, first: usize, found: &mut Vec<Found>) -> bool {
+        let end = found.len();
+        self.touch_front(triangle, number, found);
+        let is_level = found[end..].iter().any(|one| one.gap <= least);
+        if is_level {
+            found.drain(first..end);
+        } else {
+            found.truncate(end);
+        }
+        is_level
     }
 
     /// Whether the body is out of reach along the line from the point of a triangle that is `nearest` to its middle, as most are of whose box it
