@@ -12,6 +12,7 @@ mod closed;
 mod crossings;
 mod edges;
 mod error;
+mod file;
 mod heights;
 mod merge;
 mod obj;
@@ -22,8 +23,9 @@ mod tree;
 mod vector;
 
 pub use closed::Closed;
-pub(crate) use edges::{Edges, NONE};
+pub(crate) use edges::{Edges, HIDDEN, NONE};
 pub use error::{MeshError, Place};
+pub use file::{MeshFile, Object};
 pub use heights::Heights;
 pub use pieces::{Cutting, Piece};
 pub use polygons::PolygonMesh;
@@ -51,18 +53,12 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Reads a file by the end of its name: `.stl` or `.obj`.
+    /// Reads all triangles of a file by the end of its name; see [`MeshFile::load`].
     ///
     /// # Errors
-    /// Where the file cannot be read, is too large, or is none of the two; see [`Mesh::from_stl`] and [`Mesh::from_obj`].
+    /// As [`MeshFile::load`].
     pub fn load(path: &Path) -> Result<Self, MeshError> {
-        let file = path.display().to_string();
-        let extension = path.extension().map(|end| end.to_string_lossy().to_ascii_lowercase());
-        match extension.as_deref() {
-            Some("stl") => Self::from_stl(&bytes_of(path)?, &file),
-            Some("obj") => Self::from_obj(&bytes_of(path)?, &file),
-            _ => Err(MeshError::read(&file, Place::File, "not known by its name", "expected a name that ends in .stl or .obj")),
-        }
+        MeshFile::load(path).map(|file| file.mesh)
     }
 
     /// Reads STL, as text or binary, with equal points merged ([`Mesh::merged`]). Normals, names and attributes are passed over.
@@ -70,16 +66,16 @@ impl Mesh {
     /// # Errors
     /// What is wrong, with its line or byte; `file` is what errors call the bytes.
     pub fn from_stl(bytes: &[u8], file: &str) -> Result<Self, MeshError> {
-        stl::read(bytes, file)
+        MeshFile::from_stl(bytes, file).map(|file| file.mesh)
     }
 
-    /// Reads Wavefront OBJ: `v` and `f`, faces of more than three corners as fans; points nearer to each other than a part in 10⁹ of the extent
+    /// Reads Wavefront OBJ: `v` and `f`, faces of more than three corners cut into triangles; points nearer to each other than a part in 10⁹ of the extent
     /// become one. All else is passed over.
     ///
     /// # Errors
     /// What is wrong, with its line; `file` is what errors call the bytes.
     pub fn from_obj(bytes: &[u8], file: &str) -> Result<Self, MeshError> {
-        obj::read(bytes, file).map(|mesh| mesh.triangulated())
+        MeshFile::from_obj(bytes, file).map(|file| file.mesh)
     }
 
     /// The same surface with each point once: points at a distance of at most `tolerance` (m) from an earlier one become that one; at 0

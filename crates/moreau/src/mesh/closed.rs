@@ -38,11 +38,14 @@ pub(super) fn closed(mut mesh: Mesh) -> Result<Closed, MeshError> {
     mesh.check()?;
     points_apart(&mesh)?;
     let edges = Edges::of(&mesh)?;
+    let ends = |&(triangle, k): &(u32, usize)| {
+        let corners = mesh.corners(triangle as usize);
+        [corners[k], corners[(k + 1) % 3]]
+    };
+    if !edges.shared.is_empty() {
+        return Err(MeshError::Shared { count: edges.shared.len(), edges: edges.shared.iter().take(LISTED).map(ends).collect() });
+    }
     if !edges.open.is_empty() {
-        let ends = |&(triangle, k): &(u32, usize)| {
-            let corners = mesh.corners(triangle as usize);
-            [corners[k], corners[(k + 1) % 3]]
-        };
         return Err(MeshError::Open { count: edges.open.len(), edges: edges.open.iter().take(LISTED).map(ends).collect() });
     }
     crossings::check(&mesh)?;

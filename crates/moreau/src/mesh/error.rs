@@ -95,8 +95,23 @@ pub enum MeshError {
         /// The ends of the first few, m.
         edges: Vec<[[f64; 3]; 2]>,
     },
-    /// Edges of three triangles or more.
-    #[error("{count} edges have more than two triangles, the first {}; expected at most two", Listed(edges))]
+    /// Edges at which several parts of a body touch.
+    #[error(
+        "{count} edges have four triangles or more, the first {}; a body needs two at each edge: separate the parts that touch there, \
+         or make a body of each",
+        Listed(edges)
+    )]
+    Shared {
+        /// How many.
+        count: usize,
+        /// The ends of the first few, m.
+        edges: Vec<[[f64; 3]; 2]>,
+    },
+    /// Edges of an odd number of triangles above one.
+    #[error(
+        "{count} edges have three triangles or another odd number, the first {}; expected two, or an even number in a ground",
+        Listed(edges)
+    )]
     Crowded {
         /// How many.
         count: usize,

@@ -6,10 +6,22 @@ use std::collections::HashMap;
 
 /// See [`Mesh::merged`]. A corner that names no point goes on doing so.
 pub(super) fn merged(mesh: &Mesh, tolerance: f64) -> Mesh {
+    merged_with_index(mesh, tolerance).0
+}
+
+/// The same, and for each triangle its number among those that stay.
+pub(super) fn merged_with_index(mesh: &Mesh, tolerance: f64) -> (Mesh, Vec<Option<u32>>) {
     let (points, index) = joined(&mesh.points, tolerance);
-    let triangles = mesh.triangles.iter().map(|corners| corners.map(|i| index.get(i as usize).copied().unwrap_or(i)));
-    let triangles = triangles.filter(|&[a, b, c]| a != b && b != c && c != a).collect();
-    Mesh { points, triangles }
+    let (mut triangles, mut numbers) = (Vec::with_capacity(mesh.triangles.len()), Vec::with_capacity(mesh.triangles.len()));
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|i| index.get(i as usize).copied().unwrap_or(i));
+        let stays = a != b && b != c && c != a;
+        numbers.push(stays.then_some(triangles.len() as u32));
+        if stays {
+            triangles.push([a, b, c]);
+        }
+    }
+    (Mesh { points, triangles }, numbers)
 }
 
 /// See [`PolygonMesh::merged`].

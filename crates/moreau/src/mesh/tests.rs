@@ -155,6 +155,46 @@ fn boxes_that_go_through_each_other_cross_and_boxes_apart_do_not() {
     assert!(two(1.0).is_ok(), "boxes that touch do not cross");
 }
 
+/// Two boxes that share an edge, and boxes that share a face.
+#[test]
+fn edges_of_four_triangles_are_left_to_grounds() {
+    let of = |shift: [f64; 3]| {
+        let (mut mesh, other) = (cuboid([1.0; 3]), moved(&cuboid([1.0; 3]), DQuat::IDENTITY, shift.into()));
+        mesh.points.extend(other.points);
+        mesh.triangles.extend(other.triangles.iter().map(|corners| corners.map(|i| i + 8)));
+        mesh.merged(0.0)
+    };
+    for (shift, shared, hidden) in [([1.0, 0.0, 1.0], 1, 0), ([0.0, 0.0, 1.0], 5, 12), ([1.0, 0.0, 0.0], 5, 12)] {
+        let mesh = of(shift);
+        let edges = Edges::of(&mesh).unwrap();
+        // Those of the diagonal of a shared face count, where both cut it the same way.
+        assert_eq!(edges.shared.len(), shared, "{shift:?}");
+        let count = edges.beyond.iter().flatten().filter(|&&other| other == HIDDEN).count();
+        assert_eq!(count, hidden, "{shift:?}");
+        for (i, beyond) in edges.beyond.iter().enumerate() {
+            for (k, &other) in beyond.iter().enumerate().filter(|(_, other)| **other != HIDDEN) {
+                let [from, to] = [k, (k + 1) % 3].map(|k| mesh.triangles[i][k]);
+                let theirs = mesh.triangles[other as usize];
+                assert!((0..3).any(|k| (theirs[k], theirs[(k + 1) % 3]) == (to, from)), "{shift:?}");
+            }
+        }
+        // The face in common is no part of a surface, which has no such edges then.
+        let covered = edges.covered(&mesh).iter().filter(|covered| **covered).count();
+        assert_eq!(covered, if hidden == 0 { 0 } else { 4 }, "{shift:?}");
+        let surface = crate::shape::solid::Surface::new(mesh.clone()).unwrap();
+        assert_eq!(surface.mesh().triangles.len(), 24 - covered);
+        let error = mesh.closed().unwrap_err();
+        assert!(
+            matches!(error, MeshError::Shared { .. }) && error.to_string().contains("four triangles or more, the first from ["),
+            "{error}"
+        );
+    }
+    // Fronts and backs that do not alternate: a box within the corner of another one's outside.
+    let mut inside_out = of([1.0, 0.0, 1.0]);
+    inside_out.triangles[12..].iter_mut().for_each(|corners| corners.swap(0, 1));
+    assert!(matches!(Edges::of(&inside_out), Err(MeshError::Inconsistent { .. })));
+}
+
 /// STL of a mesh: text, and binary.
 fn stl(mesh: &Mesh) -> (String, Vec<u8>) {
     let mut text = "solid test\n".to_owned();
@@ -188,6 +228,74 @@ fn stl_is_read_as_it_was_written_with_equal_points_merged() {
     let mut confusing = binary.clone();
     confusing[..5].copy_from_slice(b"solid");
     assert_eq!(Mesh::from_stl(&confusing, "x"), Mesh::from_stl(&binary, "x"));
+}
+
+/// Counts of triangles that are wrong, and bytes behind them, do not hide triangles that are whole.
+#[test]
+fn binary_stl_with_a_wrong_count_or_bytes_behind_is_read_with_a_remark() {
+    let (_, binary) = stl(&corner());
+    let count = (binary.len() - 84) / 50;
+    let right = Mesh::from_stl(&binary, "x").unwrap();
+    let with_count = |count: u32| {
+        let mut bytes = binary.clone();
+        bytes[80..84].copy_from_slice(&count.to_le_bytes());
+        bytes
+    };
+    let with_rest = |rest: &[u8]| [&binary[..], rest].concat();
+    let mut named = with_rest(b"some bytes");
+    named[..20].copy_from_slice(b"solid facet exporter");
+    for (what, bytes, words) in [
+        ("no count", with_count(0), "given as 0, and there are"),
+        ("too small a count", with_count(count as u32 - 1), "all"),
+        ("too large a count", with_count(u32::MAX), "given as 4294967295"),
+        ("a rest", with_rest(b"rest"), "4 bytes after the last triangle were left out"),
+        ("a rest as long as a triangle", with_rest(&[0; 50]), "50 bytes after the last triangle"),
+        ("a rest that is long", with_rest(&[0xff; 1000]), "1000 bytes after the last triangle"),
+        ("a head like text", named, "10 bytes after the last triangle"),
+    ] {
+        let found = MeshFile::from_stl(&bytes, "test.stl").unwrap_or_else(|error| panic!("{what}: {error}"));
+        assert_eq!(found.mesh, right, "{what}");
+        assert!(found.remarks.len() == 1 && found.remarks[0].contains(words), "{what}: {:?}", found.remarks);
+    }
+    assert!(MeshFile::from_stl(&binary, "x").unwrap().remarks.is_empty());
+    // A file that ends within a triangle was cut, and other bytes do not look like triangles.
+    for bytes in [binary[..binary.len() - 10].to_vec(), [&with_count(7)[..84], &[0x7e; 50 * 5]].concat()] {
+        let error = MeshFile::from_stl(&bytes, "test.stl").unwrap_err().to_string();
+        assert!(error.contains("byte 80"), "{error}");
+    }
+}
+
+#[test]
+fn text_stl_may_have_any_case_and_blanks() {
+    let mesh = corner();
+    let (text, _) = stl(&mesh);
+    let right = Mesh::from_stl(text.as_bytes(), "x").unwrap();
+    let one_line = text.replace('\n', " ");
+    for (what, text) in [
+        ("capitals", text.to_ascii_uppercase()),
+        ("other ends of lines", text.replace('\n', "\r\n")),
+        ("old ends of lines", text.replace('\n', "\r")),
+        ("tabs", text.replace(' ', "\t \t")),
+        ("one line", one_line.clone()),
+        ("a word a line", text.replace("solid test", "solid").replace(' ', "\n")),
+        ("a mark of the order of bytes", format!("\u{feff}{text}")),
+        ("blank lines before", format!("\n  \n{text}")),
+        ("a name with words of the format", text.replace("solid test", "solid my solid facet vertex")),
+        ("no name", text.replace("solid test", "solid")),
+        ("normals that are no numbers", text.replace("normal 0 0 0", "normal nan nan -nan(ind)")),
+        ("no normals", text.replace("normal 0 0 0", "")),
+    ] {
+        let found = MeshFile::from_stl(text.as_bytes(), "test.stl").unwrap_or_else(|error| panic!("{what}: {error}"));
+        assert!(found.mesh == right && found.remarks.is_empty() && found.objects.len() == 1, "{what}");
+    }
+    let found = MeshFile::from_stl((text.clone() + "\u{1a}\0\0").as_bytes(), "test.stl").unwrap();
+    assert!(found.mesh == right && found.remarks[0].contains("the text after `endsolid` was left out"), "{:?}", found.remarks);
+    let [one, two] = ["first", "second one"].map(|name| one_line.replace("solid test", &format!("solid {name}")));
+    let three = format!("{one}{two}\n{text}");
+    let found = MeshFile::from_stl(three.as_bytes(), "three.stl").unwrap();
+    let names: Vec<_> = found.objects.iter().map(|object| object.name.as_deref()).collect();
+    assert_eq!(names, [Some("first"), Some("second one"), Some("test")]);
+    assert!(found.object(1).closed().is_ok());
 }
 
 #[test]
@@ -232,6 +340,54 @@ fn obj_is_read_in_all_its_forms() {
     ] {
         assert!(error(text).contains(words), "{}", error(text));
     }
+}
+
+#[test]
+fn objects_of_an_obj_are_known_by_name() {
+    let cube = cuboid([1.0; 3]);
+    let face = |c: &[u32; 3]| format!("f {} {} {}\n", c[0] + 1, c[1] + 1, c[2] + 1);
+    let points = |at: f64| cube.points.iter().map(|p| format!("v {} {} {}\n", p[0] + at, p[1], p[2])).collect::<String>();
+    let faces = |shift: u32| cube.triangles.iter().map(|c| face(&c.map(|i| i + shift))).collect::<Vec<_>>();
+    let (first, second) = (faces(0), faces(8));
+    // Points first, faces of one object in two places.
+    let (start, rest) = first.split_at(5);
+    let text =
+        format!("{}{}o a\ng x\n{}o b c\n{}o a\n{}", points(0.0), points(3.0), start.concat(), second.concat(), rest.concat());
+    let found = MeshFile::from_obj(text.as_bytes(), "two.obj").unwrap();
+    let names: Vec<_> = found.objects.iter().map(|object| (object.name.as_deref(), object.triangles.len())).collect();
+    assert_eq!(names, [(Some("a"), 12), (Some("b c"), 12)]);
+    assert!(found.has_separate_objects());
+    for i in 0..2 {
+        let centre = found.object(i).closed().unwrap().mass().centre;
+        assert!((centre[0] - 0.5 - 3.0 * i as f64).abs() < 1e-14);
+    }
+    // Without objects groups are objects; those of one body share points.
+    let groups = format!("{}g side\n{}g rest\n{}", points(0.0), start.concat(), rest.concat());
+    let found = MeshFile::from_obj(groups.as_bytes(), "one.obj").unwrap();
+    assert!(found.objects.len() == 2 && !found.has_separate_objects());
+    assert_eq!((found.mesh.parts().len(), MeshFile::from_obj(text.as_bytes(), "x").unwrap().mesh.parts().len()), (1, 2));
+}
+
+/// A fan around the first corner of a concave face leaves the face.
+#[test]
+fn concave_faces_are_cut_without_leaving_them() {
+    // A comb: teeth along y, seen from +z counter-clockwise, tilted.
+    let outline = [[0, 0], [5, 0], [5, 3], [4, 3], [4, 1], [3, 1], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]];
+    for begin in 0..outline.len() {
+        let mut face: Vec<u32> = (0..outline.len() as u32).collect();
+        face.rotate_left(begin);
+        let points =
+            outline.iter().map(|&[x, y]| [f64::from(x), f64::from(y), 0.3 * f64::from(x) + 0.1 * f64::from(y)]).collect();
+        let mesh = PolygonMesh { points, faces: vec![face] }.triangulated();
+        let area: f64 = (0..mesh.triangles.len()).map(|i| vector::twice_area(mesh.corners(i))[2]).sum();
+        let sizes: f64 = (0..mesh.triangles.len()).map(|i| vector::twice_area(mesh.corners(i))[2].abs()).sum();
+        assert_eq!(mesh.triangles.len(), outline.len() - 2);
+        assert!((area - 22.0).abs() < 1e-12 && (sizes - 22.0).abs() < 1e-12, "{begin}: {area} {sizes}");
+    }
+    // A corner on a side, where a fan has a triangle without area.
+    let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let mesh = PolygonMesh { points, faces: vec![vec![0, 1, 2, 3, 4]] }.triangulated();
+    assert!(mesh.check().is_ok() && mesh.triangles.len() == 3);
 }
 
 /// As many programs write it: each face has corners of its own, rounded or not.

@@ -1,7 +1,7 @@
 //! Surfaces of triangles: ground, terrain, machines.
 
 use crate::detect::narrow::vector::{along, cross, dot, sub};
-use crate::mesh::{Aabb, Edges, Mesh, MeshError, NONE, Tree};
+use crate::mesh::{Aabb, Edges, HIDDEN, Mesh, MeshError, NONE, Tree};
 use crate::shape::{Contour, Figure, Polygons, SAME};
 use crate::space::Solid;
 use std::fmt;
@@ -49,14 +49,24 @@ pub(crate) enum On {
 }
 
 impl Surface {
-    /// The surface of a mesh.
+    /// The surface of a mesh. Faces in which two parts of the solid touch are no part of it: nothing reaches them.
     ///
     /// # Errors
-    /// Corners that do not exist or are nowhere, triangles without an area, edges with more than two triangles, neighbours that face
-    /// different sides.
-    pub fn new(mesh: Mesh) -> Result<Self, MeshError> {
+    /// Corners that do not exist or are nowhere, triangles without an area, edges with an odd number of triangles above one, neighbours that
+    /// face different sides.
+    pub fn new(mut mesh: Mesh) -> Result<Self, MeshError> {
         mesh.check()?;
-        let beyond = Edges::of(&mesh)?.beyond;
+        let mut edges = Edges::of(&mesh)?;
+        let covered = edges.covered(&mesh);
+        if covered.contains(&true) && covered.contains(&false) {
+            let mut number = 0;
+            mesh.triangles.retain(|_| {
+                number += 1;
+                !covered[number - 1]
+            });
+            edges = Edges::of(&mesh)?;
+        }
+        let beyond = edges.beyond;
         let count = mesh.triangles.len();
         let normals: Vec<[f64; 3]> = (0..count).map(|i| normal(mesh.corners(i))).collect();
         let (starts, ends) = spokes(&mesh);
@@ -142,6 +152,7 @@ impl Surface {
             On::Face | On::Off => false,
             // Between triangles of one plane only their normal, which is that of the front.
             On::Edge(_) if self.is_flat(triangle, on) => false,
+            On::Edge(k) if self.0.beyond[triangle][k] == HIDDEN => false,
             On::Edge(k) => {
                 let corners = self.corners(triangle);
                 let way = unit(sub(corners[(k + 1) % 3], corners[k]));
@@ -166,7 +177,7 @@ impl Surface {
     /// The normal of the triangle beyond edge `k`.
     fn other(&self, triangle: usize, k: usize) -> Option<[f64; 3]> {
         let other = self.0.beyond[triangle][k];
-        (other != NONE).then(|| self.normal(other as usize))
+        (other != NONE && other != HIDDEN).then(|| self.normal(other as usize))
     }
 }
 
