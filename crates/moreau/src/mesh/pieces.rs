@@ -1,8 +1,10 @@
 //! Convex pieces of a concave mesh.
 //!
-//! The volume is filled with cubes, and cut along planes of these until each part is convex but for a tolerance (V-HACD, Mamou 2016, as
+//! A mesh of few faces is cut along their planes, exactly (`exact`). Otherwise the volume is filled with cubes, and cut along planes of these until each part is convex but for a tolerance (V-HACD, Mamou 2016, as
 //! parry has it). A piece is the hull of the surface within its part, so that pieces keep to the surface and not to the cubes. They cover
 //! the volume but for what the tolerance lets a hull bridge. The mass is the mesh's, not theirs.
+
+mod exact;
 
 use super::{Closed, MeshError, moments_of};
 use glam::DVec3;
@@ -50,6 +52,9 @@ impl Closed {
             && moments_of(&whole.points, &whole.triangles).volume <= (1.0 + cutting.concavity) * self.mass().volume
         {
             return Ok(vec![whole]);
+        }
+        if let Some(pieces) = exact::pieces(mesh, self.mass().volume, cutting.most as usize) {
+            return Ok(pieces);
         }
         let parameters = VHACDParameters {
             resolution: cutting.resolution,

@@ -463,6 +463,47 @@ fn a_corner_is_cut_into_convex_pieces_that_fill_it() {
     assert!(matches!(closed.pieces(Cutting { resolution: 1, ..Cutting::default() }), Err(MeshError::Setting { .. })));
 }
 
+/// Blocks of few faces are cut along these: pieces fill the block and do not leave it.
+#[test]
+fn blocks_of_few_faces_are_cut_exactly() {
+    let angle = |x: f64, y: f64| [0.3 * x - 0.1 * y, 0.2 * x + y];
+    let comb = [[0, 0], [5, 0], [5, 3], [4, 3], [4, 1], [3, 1], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]];
+    let outline: Vec<[f64; 2]> = comb.iter().map(|&[x, y]| angle(f64::from(x), f64::from(y))).collect();
+    let count = outline.len() as u32;
+    let level = |z: f64| outline.iter().map(move |&[x, y]| [x, y, z]);
+    let mut faces = vec![(0..count).rev().collect::<Vec<_>>(), (count..2 * count).collect()];
+    faces.extend((0..count).map(|i| vec![i, (i + 1) % count, (i + 1) % count + count, i + count]));
+    let comb = PolygonMesh { points: level(0.0).chain(level(0.7)).collect(), faces }.triangulated();
+    // A frame: a cube with a hole through it.
+    let hole = {
+        let mut points = Vec::new();
+        for z in [0.0, 1.0] {
+            points.extend([[0.0, 0.0, z], [3.0, 0.0, z], [3.0, 3.0, z], [0.0, 3.0, z]]);
+            points.extend([[1.0, 1.0, z], [2.0, 1.0, z], [2.0, 2.0, z], [1.0, 2.0, z]]);
+        }
+        let mut faces = Vec::new();
+        for i in 0..4_u32 {
+            let next = (i + 1) % 4;
+            faces.push(vec![i, i + 4, next + 4, next]);
+            faces.push(vec![i + 8, next + 8, next + 12, i + 12]);
+            faces.push(vec![i, next, next + 8, i + 8]);
+            faces.push(vec![i + 4, i + 12, next + 12, next + 4]);
+        }
+        PolygonMesh { points, faces }.triangulated()
+    };
+    for (what, mesh, most) in [("corner", corner(), 2), ("comb", comb, 4), ("frame", hole, 4)] {
+        for turn in [0.0, 0.4] {
+            let rotation = DQuat::from_axis_angle(DVec3::new(0.3, -0.5, 0.8).normalize(), turn);
+            let closed =
+                moved(&mesh, rotation, DVec3::new(1.0, 2.0, 3.0)).closed().unwrap_or_else(|error| panic!("{what}: {error}"));
+            let pieces = closed.pieces(Cutting::default()).unwrap();
+            let volume: f64 = pieces.iter().map(|piece| convex(piece).0).sum();
+            assert!(pieces.len() <= most, "{what}: {} pieces", pieces.len());
+            assert!((volume / closed.mass().volume - 1.0).abs() < 1e-6, "{what}: {volume} of {}", closed.mass().volume);
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
