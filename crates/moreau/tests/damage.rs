@@ -3,7 +3,7 @@
 
 use moreau::checkpoint::{self, Checkpoints};
 use moreau::mesh::compas::Assembly;
-use moreau::mesh::{Closed, Mesh, MeshError};
+use moreau::mesh::{Closed, Mesh, MeshError, MeshFile};
 use moreau::observe::{Observer, TrajectoryOutput};
 use moreau::run::{Task, run};
 use moreau::scene::{AnyWorld, Scene};
@@ -132,6 +132,34 @@ fn compas() -> Vec<u8> {
         .into_bytes()
 }
 
+/// PLY, binary with big numbers first.
+fn ply() -> Vec<u8> {
+    let head = "ply\nformat binary_big_endian 1.0\nelement vertex 12\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n\
+                property list uchar int vertex_indices\nend_header\n";
+    let mut bytes = head.as_bytes().to_vec();
+    bytes.extend(TETRAHEDRON.iter().flatten().flatten().flat_map(|x| x.to_be_bytes()));
+    for i in 0..4_i32 {
+        bytes.push(3);
+        (0..3).for_each(|k| bytes.extend((3 * i + k).to_be_bytes()));
+    }
+    bytes
+}
+
+fn glb() -> Vec<u8> {
+    let binary: Vec<u8> = TETRAHEDRON.iter().flatten().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    let mut json =
+        r#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 12}],
+        "bufferViews": [{"buffer": 0, "byteLength": 144}], "buffers": [{"byteLength": 144}]}"#
+            .as_bytes()
+            .to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let number = |n: usize| (n as u32).to_le_bytes();
+    let length = 28 + json.len() + binary.len();
+    [b"glTF", &number(2)[..], &number(length), &number(json.len()), b"JSON", &json, &number(binary.len()), b"BIN\0", &binary]
+        .concat()
+}
+
 /// Who reads the bytes of one kind of mesh.
 type Reader<'a> = &'a dyn Fn(&[u8]) -> Result<Vec<Closed>, MeshError>;
 
@@ -141,10 +169,13 @@ fn a_damaged_mesh_is_refused_or_closed_and_cuts_are_found() {
     let closed = |mesh: Result<Mesh, MeshError>| mesh.and_then(Mesh::closed).map(|closed| vec![closed]);
     let of_blocks = |assembly: Assembly| assembly.blocks.iter().map(|block| block.mesh.triangulated().closed()).collect();
     let stl = |bytes: &[u8]| closed(Mesh::from_stl(bytes, "damaged.stl"));
-    let kinds: [(Vec<u8>, Reader<'_>); 4] = [
+    let file = |file: Result<MeshFile, MeshError>| closed(file.map(|file| file.mesh));
+    let kinds: [(Vec<u8>, Reader<'_>); 6] = [
         (stl_binary(), &stl),
         (stl_text(), &stl),
         (obj(), &|bytes| closed(Mesh::from_obj(bytes, "damaged.obj"))),
+        (ply(), &|bytes| file(MeshFile::from_ply(bytes, "damaged.ply"))),
+        (glb(), &|bytes| file(MeshFile::from_gltf(bytes, "damaged.glb"))),
         (compas(), &|bytes| Assembly::from_json(bytes, "damaged.json").and_then(of_blocks)),
     ];
     for (kind, (whole, read)) in kinds.into_iter().enumerate() {

@@ -1,8 +1,8 @@
 //! What the fuzz targets begin with, and what they have found, goes through the same readers here.
 
 use moreau::checkpoint::Checkpoint;
-use moreau::mesh::Mesh;
 use moreau::mesh::compas::Assembly;
+use moreau::mesh::{Mesh, MeshFile};
 use moreau::observe::Summary;
 use moreau::scene::{AnyWorld, Scene};
 use moreau::shape::solid::Surface;
@@ -34,6 +34,8 @@ fn look_at(mesh: Result<Mesh, impl std::fmt::Display>) {
 fn meshes() {
     seeds("mesh_stl").iter().for_each(|path| look_at(Mesh::from_stl(&bytes(path), "seed.stl")));
     seeds("mesh_obj").iter().for_each(|path| look_at(Mesh::from_obj(&bytes(path), "seed.obj")));
+    seeds("mesh_ply").iter().for_each(|path| look_at(MeshFile::from_ply(&bytes(path), "seed.ply").map(|file| file.mesh)));
+    seeds("mesh_gltf").iter().for_each(|path| look_at(MeshFile::from_gltf(&bytes(path), "seed.glb").map(|file| file.mesh)));
     for path in seeds("mesh_compas") {
         let Ok(assembly) = Assembly::from_json(&bytes(&path), "seed.json") else { continue };
         assembly.blocks.into_iter().for_each(|block| look_at(Ok::<_, String>(block.mesh.triangulated())));

@@ -211,10 +211,10 @@ fn files_lie_beside_the_scene() {
     std::fs::write(&path, format!("{HEAD}{plate}{hills}{ball}")).unwrap();
     let AnyWorld::Solid(mut world) = Scene::load(&path).unwrap().build(u64::MAX).unwrap() else { panic!("of the plane") };
     steps(&mut world, 10, |world, contacts| assert!(contacts == 1 && world.bodies.pose[2].position == [0.3, 0.2, 0.1]));
-    std::fs::write(folder.path().join("plate.ply"), obj).unwrap();
-    std::fs::write(&path, format!("{HEAD}{}{hills}{ball}", plate.replace(".obj", ".ply"))).unwrap();
+    std::fs::write(folder.path().join("plate.off"), obj).unwrap();
+    std::fs::write(&path, format!("{HEAD}{}{hills}{ball}", plate.replace(".obj", ".off"))).unwrap();
     let error = Scene::load(&path).unwrap_err().to_string();
-    assert!(error.contains("expected a name that ends in .stl or .obj"), "{error}");
+    assert!(error.contains("expected a name that ends in .stl, .obj, .ply, .gltf or .glb"), "{error}");
     std::fs::write(&path, format!("{HEAD}{plate}{hills}{ball}")).unwrap();
     std::fs::write(folder.path().join("plate.obj"), obj.replace("f 1 2 3 4", "f 1 2 3 5")).unwrap();
     let error = Scene::load(&path).unwrap_err().to_string();

@@ -1,6 +1,6 @@
 //! What a file of meshes holds: one mesh, the objects that it consists of, and what its reader had to say.
 
-use super::{Mesh, MeshError, Place, bytes_of, obj, stl};
+use super::{Mesh, MeshError, Place, bytes_of, gltf, obj, ply, stl};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -35,7 +35,12 @@ impl MeshFile {
         match extension.as_deref() {
             Some("stl") => Self::from_stl(&bytes_of(path)?, &file),
             Some("obj") => Self::from_obj(&bytes_of(path)?, &file),
-            _ => Err(MeshError::read(&file, Place::File, "not known by its name", "expected a name that ends in .stl or .obj")),
+            Some("ply") => Self::from_ply(&bytes_of(path)?, &file),
+            Some("gltf" | "glb") => gltf::read(&bytes_of(path)?, &file, path.parent()),
+            _ => {
+                let hint = "expected a name that ends in .stl, .obj, .ply, .gltf or .glb";
+                Err(MeshError::read(&file, Place::File, "not known by its name", hint))
+            }
         }
     }
 
@@ -53,6 +58,23 @@ impl MeshFile {
     /// As [`Mesh::from_obj`].
     pub fn from_obj(bytes: &[u8], file: &str) -> Result<Self, MeshError> {
         obj::read(bytes, file)
+    }
+
+    /// Reads PLY, as text or binary of either order of bytes: vertices and faces, cut into triangles. All is one object.
+    ///
+    /// # Errors
+    /// Returned if the bytes are not PLY, lack vertices or faces, or are damaged.
+    pub fn from_ply(bytes: &[u8], file: &str) -> Result<Self, MeshError> {
+        ply::read(bytes, file)
+    }
+
+    /// Reads glTF 2.0, as JSON or binary (GLB), whose buffers are all in `bytes`. Each node with a mesh is an object, placed by the
+    /// transforms of the nodes. Coordinates are taken as they are: by the specification y points up.
+    ///
+    /// # Errors
+    /// Returned if the bytes are not glTF 2.0, have compressed or sparse meshes, or are damaged.
+    pub fn from_gltf(bytes: &[u8], file: &str) -> Result<Self, MeshError> {
+        gltf::read(bytes, file, None)
     }
 
     /// Merges equal points, as [`Mesh::merged`] does. Objects lose the triangles that lose a corner.

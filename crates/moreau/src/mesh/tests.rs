@@ -368,6 +368,190 @@ fn objects_of_an_obj_are_known_by_name() {
     assert_eq!((found.mesh.parts().len(), MeshFile::from_obj(text.as_bytes(), "x").unwrap().mesh.parts().len()), (1, 2));
 }
 
+/// PLY of a mesh with colours, an element more, and a list of one byte before the faces: text, and binary of both orders of bytes.
+fn ply(mesh: &Mesh) -> [Vec<u8>; 3] {
+    let head = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment made here\nelement vertex {}\nproperty float x\nproperty float y\nproperty double z\n\
+             property uchar red\nelement material 1\nproperty short number\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+            mesh.points.len(),
+            mesh.triangles.len()
+        )
+    };
+    let mut text = head("ascii");
+    mesh.points.iter().for_each(|[x, y, z]| text += &format!("{x} {y} {z} 255\n"));
+    text += "-7\n";
+    mesh.triangles.iter().for_each(|[a, b, c]| text += &format!("3 {a} {b} {c}\n"));
+    let binary = |format: &str, big: bool| {
+        let mut bytes = head(format).into_bytes();
+        let mut put = |little: Vec<u8>| bytes.extend(if big { little.into_iter().rev().collect() } else { little });
+        for [x, y, z] in &mesh.points {
+            put((*x as f32).to_le_bytes().to_vec());
+            put((*y as f32).to_le_bytes().to_vec());
+            put(z.to_le_bytes().to_vec());
+            put(vec![255]);
+        }
+        put((-7_i16).to_le_bytes().to_vec());
+        for corners in &mesh.triangles {
+            put(vec![3]);
+            corners.iter().for_each(|&i| put((i as i32).to_le_bytes().to_vec()));
+        }
+        bytes
+    };
+    [text.into_bytes(), binary("binary_little_endian", false), binary("binary_big_endian", true)]
+}
+
+#[test]
+fn ply_is_read_in_all_its_forms() {
+    let mesh = corner();
+    for bytes in ply(&mesh) {
+        let found = MeshFile::from_ply(&bytes, "test.ply").unwrap_or_else(|error| panic!("{error}"));
+        assert!(found.mesh == mesh && found.objects.len() == 1 && found.remarks.is_empty());
+    }
+    let square = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+                  property list uchar uint vertex_index\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    assert_eq!(MeshFile::from_ply(square.as_bytes(), "x").unwrap().mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+    let error =
+        |from: &str, to: &str| MeshFile::from_ply(square.replace(from, to).as_bytes(), "test.ply").unwrap_err().to_string();
+    for (from, to, words) in [
+        ("ply\n", "plx\n", "test.ply"),
+        ("vertex 4", "vertex 400000000000000", "400000000000000 of the element `vertex` where"),
+        ("element face 1\n", "element other 9000000000000\nelement face 1\n", "the element `other` has no properties"),
+        ("face 1", "face 2", "in the element `face`"),
+        ("4 0 1 2 3", "4 0 1 2", "in the element `face`"),
+        ("4 0 1 2 3", "4294967295 0 1 2 3", "in the element `face`"),
+        ("4 0 1 2 3", "4 0 1 2 4", "face 0 names vertex 4; expected a number below 4"),
+        ("4 0 1 2 3", "2 0 1", "face 0 has 2 corners"),
+        ("1 1 0", "1 nan 0", "test.ply:12: in the element `vertex`"),
+        ("1 1 0", "1 1e70 0", "vertex 2 is at [1.0, inf, 0.0]"),
+        ("vertex_index", "strips", "no element `face` with a list `vertex_indices`"),
+        ("float z", "float w", "no element `vertex` with x, y and z"),
+    ] {
+        let message = error(from, to);
+        assert!(message.contains(words), "{to}: {message}");
+    }
+}
+
+/// The bytes of a buffer as a text in base64.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let group = |three: &[u8]| {
+        let bits = three.iter().fold(0_u32, |bits, &b| bits << 8 | u32::from(b)) << (8 * (3 - three.len()));
+        let letters = (0..=three.len()).map(move |k| LETTERS[(bits >> (18 - 6 * k) & 63) as usize] as char).collect::<String>();
+        letters + &"=".repeat(3 - three.len())
+    };
+    bytes.chunks(3).map(group).collect()
+}
+
+/// Positions and indices of a mesh as a buffer of glTF, and the document: nodes are written by the caller.
+fn gltf(mesh: &Mesh, nodes: &str, uri: &str) -> (String, Vec<u8>) {
+    let mut buffer: Vec<u8> = mesh.points.iter().flatten().flat_map(|&x| (x as f32).to_le_bytes()).collect();
+    let positions = buffer.len();
+    buffer.extend(mesh.triangles.iter().flatten().flat_map(|&i| (i as u16).to_le_bytes()));
+    let uri = uri.replace("DATA", &base64(&buffer));
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": {nodes},
+        "meshes": [{{"name": "it", "primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1}}, {{"mode": 1, "attributes": {{}}}}]}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": {}}},
+        {{"bufferView": 1, "componentType": 5123, "type": "SCALAR", "count": {}}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": {positions}}}, {{"buffer": 0, "byteOffset": {positions}, "byteLength": {}}}],
+        "buffers": [{{"byteLength": {}{uri}}}]}}"#,
+        mesh.points.len(),
+        3 * mesh.triangles.len(),
+        buffer.len() - positions,
+        buffer.len()
+    );
+    (text, buffer)
+}
+
+fn glb(text: &str, buffer: &[u8]) -> Vec<u8> {
+    let pad = |bytes: &[u8], with: u8| {
+        let mut bytes = bytes.to_vec();
+        bytes.resize(bytes.len().next_multiple_of(4), with);
+        bytes
+    };
+    let (json, binary) = (pad(text.as_bytes(), b' '), pad(buffer, 0));
+    let length = 12 + 8 + json.len() + 8 + binary.len();
+    let number = |n: usize| (n as u32).to_le_bytes();
+    [b"glTF", &number(2)[..], &number(length), &number(json.len()), b"JSON", &json, &number(binary.len()), b"BIN\0", &binary]
+        .concat()
+}
+
+const DATA: &str = r#", "uri": "data:application/octet-stream;base64,DATA""#;
+
+#[test]
+fn gltf_is_read_with_the_transforms_of_its_nodes() {
+    let mesh = corner();
+    // Turned about z by a right angle, then shifted, and within it one mirrored and of twice the size.
+    let nodes = r#"[{"name": "a", "mesh": 0, "translation": [10, 0, 0], "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476], "children": [1]},
+        {"mesh": 0, "matrix": [-2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 5, 1]}]"#;
+    let (text, buffer) = gltf(&mesh, nodes, "");
+    for bytes in [glb(&text, &buffer), gltf(&mesh, nodes, DATA).0.into_bytes()] {
+        let found = MeshFile::from_gltf(&bytes, "test.glb").unwrap_or_else(|error| panic!("{error}"));
+        let names: Vec<_> = found.objects.iter().map(|object| object.name.as_deref()).collect();
+        assert_eq!(names, [Some("a"), Some("it")]);
+        assert!(found.remarks == ["test.glb: 2 sets of points or lines were left out"], "{:?}", found.remarks);
+        let [first, second] = [0, 1].map(|i| found.object(i).closed().unwrap());
+        assert!(!first.turned() && !second.turned(), "a mirror keeps fronts outside");
+        let own = *mesh.clone().closed().unwrap().mass();
+        let [x, y, z] = own.centre;
+        for (mass, volume, centre) in [
+            (first.mass(), own.volume, [10.0 - y, x, z]),
+            (second.mass(), 8.0 * own.volume, [10.0 - 2.0 * y, -2.0 * x, 5.0 + 2.0 * z]),
+        ] {
+            assert!((mass.volume / volume - 1.0).abs() < 1e-12);
+            assert!((0..3).all(|k| (mass.centre[k] - centre[k]).abs() < 1e-12), "{:?} {centre:?}", mass.centre);
+        }
+    }
+    // A buffer in a file of its own is looked for beside the document, and nowhere else.
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("the buffer.bin"), &buffer).unwrap();
+    let path = folder.path().join("test.gltf");
+    for (uri, words) in [
+        (r#", "uri": "the%20buffer.bin""#, ""),
+        (r#", "uri": "no.bin""#, "is not there"),
+        (r#", "uri": "../x.bin""#, "in another place"),
+    ] {
+        std::fs::write(&path, gltf(&mesh, nodes, uri).0).unwrap();
+        match MeshFile::load(&path) {
+            Ok(found) => assert!(words.is_empty() && found.objects.len() == 2),
+            Err(error) => assert!(!words.is_empty() && error.to_string().contains(words), "{error}"),
+        }
+    }
+}
+
+#[test]
+fn wrong_gltf_is_refused_with_a_message() {
+    let nodes = r#"[{"mesh": 0}]"#;
+    let mesh = cuboid([1.0; 3]);
+    let (text, buffer) = gltf(&mesh, nodes, "");
+    for (from, to, words) in [
+        (r#""2.0""#, r#""1.0""#, "not glTF 2.0"),
+        (nodes, r#"[{"mesh": 3}]"#, "there is no meshes[3]"),
+        (nodes, r#"[{"mesh": 0, "children": [0]}]"#, "nodes[0] is a child twice"),
+        (nodes, r#"[{"mesh": 0, "children": [1, 1]}, {}]"#, "nodes[1] is a child twice"),
+        (nodes, r#"[{"mesh": 0, "scale": [1, 2]}]"#, "nodes[0].scale is not 3 numbers"),
+        (nodes, r#"[{"mesh": 0, "scale": [1, 2, 1e300]}]"#, "expected finite coordinates"),
+        (r#""count": 8"#, r#""count": 9000000000000000000"#, "accessors[0] goes beyond its buffer"),
+        (r#""count": 8"#, r#""count": 7"#, "names position 7 of 7"),
+        (r#""count": 8"#, r#""sparse": {}, "count": 8"#, "accessors[0] is sparse"),
+        ("5126", "5125", "accessors[0] has another type"),
+        (r#""POSITION": 0"#, r#""NORMAL": 0"#, "has no POSITION"),
+        (r#""indices": 1"#, r#""indices": 1, "extensions": {"KHR_draco_mesh_compression": {}}"#, "compressed by Draco"),
+    ] {
+        let error = MeshFile::from_gltf(&glb(&text.replace(from, to), &buffer), "test.glb").map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains(words), "{to}: {error}");
+    }
+    assert!(MeshFile::from_gltf(&glb(&text, &buffer)[..300], "test.glb").is_err());
+    // Many nodes that share one mesh ask for more than a file of this size may have.
+    let many: Vec<String> = (0..200).map(|i| format!(r#"{{"mesh": 0, "translation": [{}, 0, 0]}}"#, 2 * i)).collect();
+    let large = Mesh { triangles: mesh.triangles.iter().cycle().take(6000).copied().collect(), ..mesh };
+    let children: Vec<String> = (1..=200).map(|i| i.to_string()).collect();
+    let (text, buffer) = gltf(&large, &format!(r#"[{{"children": [{}]}}, {}]"#, children.join(", "), many.join(", ")), "");
+    let error = MeshFile::from_gltf(&glb(&text, &buffer), "test.glb").map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("too many triangles"), "{error}");
+}
+
 /// A fan around the first corner of a concave face leaves the face.
 #[test]
 fn concave_faces_are_cut_without_leaving_them() {
@@ -519,8 +703,20 @@ proptest! {
                 bytes[place] = byte;
             }
         }
-        for bytes in [&noise, &text, &binary, &obj] {
-            for mesh in [Mesh::from_stl(bytes, "x"), Mesh::from_obj(bytes, "x")].into_iter().flatten() {
+        let mut all = vec![noise, text, binary, obj];
+        let cube = cuboid([1.0; 3]);
+        let (document, buffer) = gltf(&cube, r#"[{"mesh": 0}]"#, "");
+        for mut bytes in ply(&cube).into_iter().chain([glb(&document, &buffer)]) {
+            for &(place, byte) in &places {
+                let place = (place * bytes.len() as f64) as usize;
+                bytes[place] = byte;
+            }
+            all.push(bytes);
+        }
+        for bytes in &all {
+            let found = [Mesh::from_stl(bytes, "x"), Mesh::from_obj(bytes, "x")].into_iter().flatten();
+            let others = [MeshFile::from_ply(bytes, "x"), MeshFile::from_gltf(bytes, "x")].into_iter().flatten();
+            for mesh in found.chain(others.map(|file| file.mesh)) {
                 let _ = mesh.closed();
             }
             let _ = compas::Assembly::from_json(bytes, "x");

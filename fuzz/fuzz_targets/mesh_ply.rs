@@ -1,0 +1,14 @@
+//! Whatever the bytes are, reading them as PLY gives a mesh or an error, and so do the checks; a closed mesh has a volume.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use moreau::mesh::MeshFile;
+use moreau::shape::solid::Surface;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(file) = MeshFile::from_ply(bytes, "fuzz.ply") else { return };
+    let _ = Surface::new(file.mesh.clone());
+    if let Ok(closed) = file.mesh.closed() {
+        assert!(closed.mass().volume > 0.0);
+    }
+});
