@@ -1,8 +1,9 @@
-//! Assemblies of blocks as COMPAS writes them: JSON by compas_assembly (its first format and those of COMPAS 1 and 2), by compas_dem
-//! (`BlockModel`), or a list of meshes.
+//! Assemblies of blocks as COMPAS writes them: JSON by compas_assembly (its first format and those of COMPAS 1 and 2), by compas_model and
+//! compas_dem (`BlockModel`), or lists of meshes or elements.
 //!
 //! An object is `{ "dtype": …, "data": … }`, with COMPAS 1 `{ "dtype": …, "value": { "data": … } }`; here only the data count. The blocks are
-//! the nodes of a graph, or elements that the nodes name, and interfaces its edges. A mesh has its vertices and faces by key. Units are
+//! the nodes of a graph, or elements that the nodes name, and interfaces its edges. An element has a transformation of its own, and follows
+//! those of the groups above it in the tree and of the model. A mesh has its vertices and faces by key. Units are
 //! not in the file; numbers are taken as m. Blocks come in the order of their keys, numbers before words.
 
 mod json;
@@ -10,7 +11,7 @@ mod json;
 use super::{MeshError, PolygonMesh};
 use json::{At, Fields};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Blocks, and where they touch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,6 +20,8 @@ pub struct Assembly {
     pub blocks: Vec<Block>,
     /// In the order of the blocks; none where the file has none.
     pub interfaces: Vec<Interface>,
+    /// What the file has that is left out, a sentence each.
+    pub remarks: Vec<String>,
 }
 
 /// A block.
@@ -32,6 +35,10 @@ pub struct Block {
     pub mesh: PolygonMesh,
     /// Whether it is held.
     pub support: bool,
+    /// Its density, or that of its material in the file, kg/m³.
+    pub density: Option<f64>,
+    /// The names of its attributes that are true, or a number that is not zero; in the order of the file's objects.
+    pub flags: Vec<String>,
 }
 
 /// Where two blocks touch.
@@ -59,9 +66,7 @@ impl Assembly {
 
 fn assembly(top: &At<'_>) -> Result<Assembly, MeshError> {
     if let Value::Array(_) = top.value {
-        let blocks =
-            top.items()?.iter().enumerate().map(|(i, mesh)| block(i.to_string(), mesh, None)).collect::<Result<_, _>>()?;
-        return Ok(Assembly { blocks, interfaces: Vec::new() });
+        return list(top);
     }
     if let Some(elements) = top.get("elements") {
         return model(top, &elements);
@@ -75,10 +80,41 @@ fn assembly(top: &At<'_>) -> Result<Assembly, MeshError> {
     if graph.get("node").is_some() {
         return of_graph(&graph, "node", |key, node| block(key.to_owned(), &node.need("block")?, Some(node)));
     }
-    if top.get("vertex").is_some() || top.get("vertices").is_some() {
-        return Ok(Assembly { blocks: vec![block("0".into(), top, None)?], interfaces: Vec::new() });
+    if let Some(blocks) = ["blocks", "meshes"].iter().find_map(|name| top.get(name)) {
+        return list(&blocks);
+    }
+    if top.get("vertex").is_some() || top.get("vertices").is_some() || top.get("geometry").is_some() {
+        return Ok(Assembly { blocks: vec![any("0".into(), top)?], ..Assembly::default() });
     }
     Err(top.fault("no assembly", "expected `graph`, `node`, `elements`, `assembly` with `blocks`, or a list of meshes"))
+}
+
+/// The blocks of a list of meshes or elements, in which lists stand for their items. Keys are numbers from 0.
+fn list(top: &At<'_>) -> Result<Assembly, MeshError> {
+    fn add<'a>(at: &At<'a>, depth: usize, all: &mut Vec<At<'a>>) -> Result<(), MeshError> {
+        if let (Value::Array(_), 0..8) = (at.value, depth) {
+            return at.items()?.iter().try_for_each(|item| add(item, depth + 1, all));
+        }
+        if let Value::Object(_) = at.value
+            && at.get("vertex").is_none()
+            && at.get("vertices").is_none()
+            && at.get("geometry").is_none()
+            && depth == 0
+        {
+            return at.fields()?.iter().try_for_each(|(_, item)| add(item, depth + 1, all));
+        }
+        all.push(at.clone());
+        Ok(())
+    }
+    let mut all = Vec::new();
+    add(top, 0, &mut all)?;
+    let blocks = all.iter().enumerate().map(|(i, at)| any(i.to_string(), at)).collect::<Result<_, _>>()?;
+    Ok(Assembly { blocks, ..Assembly::default() })
+}
+
+/// A block by its mesh, or by an element that has one.
+fn any(key: String, at: &At<'_>) -> Result<Block, MeshError> {
+    if at.get("geometry").is_some() { element(key, at, &BTreeMap::new()) } else { block(key, at, None) }
 }
 
 /// What a node's key or an element's id stands for.
@@ -87,41 +123,147 @@ fn named<'a>(all: &Fields<'a>, key: &str, node: &At<'_>) -> Result<At<'a>, MeshE
     found.ok_or_else(|| node.fault(format!("no block `{key}`"), "expected one for each node"))
 }
 
-/// A model of compas_dem: elements by id, which the nodes of the graph name; those that none names come last.
+/// A model of compas_model or compas_dem: elements by id, which the nodes of the graph name; those that none names come last. In a list,
+/// the id of an element is its guid, or its number.
 fn model(top: &At<'_>, elements: &At<'_>) -> Result<Assembly, MeshError> {
-    let elements = elements.fields()?;
+    let elements: Fields<'_> = if let Value::Array(all) = elements.value {
+        let guid = |i: usize| all[i].get("guid").and_then(Value::as_str).map_or_else(|| i.to_string(), str::to_owned);
+        elements.items()?.into_iter().enumerate().map(|(i, at)| (guid(i), at)).collect()
+    } else {
+        elements.fields()?
+    };
+    let densities = densities(top)?;
+    let moves = moves(top)?;
+    let (solid, empty): (Fields<'_>, Fields<'_>) = elements.into_iter().partition(|(_, at)| at.get("geometry").is_some());
     let graph = top.get("graph").filter(|graph| graph.get("node").is_some());
-    let mut unnamed: Vec<&str> = elements.iter().map(|(id, _)| &**id).collect();
+    let mut unnamed: Vec<&str> = solid.iter().map(|(id, _)| &**id).collect();
+    let moved = |key: String, id: &str, at: &At<'_>| {
+        let mut block = element(key, at, &densities)?;
+        let moves = moves.get(id).or_else(|| moves.get(""));
+        moves.into_iter().flatten().for_each(|rows| transform(&mut block, rows));
+        Ok(block)
+    };
     let mut assembly = match &graph {
-        Some(graph) => of_graph(graph, "node", |key, node| {
+        Some(graph) => of_graph_with_gaps(graph, "node", |key, node| {
             let id = node.need("element")?;
-            let id = id.text().ok_or_else(|| id.fault("not the id of an element", "expected a string"))?;
+            let id = id.key()?;
+            if empty.iter().any(|(known, _)| *known == id) {
+                // Groups have no geometry of their own.
+                return Ok(None);
+            }
             unnamed.retain(|&known| known != id);
-            element(key.to_owned(), &named(&elements, id, node)?)
+            moved(key.to_owned(), &id, &named(&solid, &id, node)?).map(Some)
         })?,
         None => Assembly::default(),
     };
-    for (id, at) in elements.iter().filter(|(id, _)| unnamed.contains(&&**id)) {
-        assembly.blocks.push(element(id.clone(), at)?);
+    let is_list = graph.is_none() && top.get("elements").is_some_and(|elements| elements.value.is_array());
+    for (number, (id, at)) in solid.iter().enumerate().filter(|(_, (id, _))| unnamed.contains(&&**id)) {
+        let key = if is_list { number.to_string() } else { id.clone() };
+        assembly.blocks.push(moved(key, id, at)?);
+    }
+    if graph.as_ref().map(has_modifiers).transpose()?.unwrap_or(false) {
+        assembly.remarks.push("modifiers (cuts of blocks by others) are left out: geometries are read without them".to_owned());
     }
     Ok(assembly)
 }
 
-/// A block of compas_dem: a geometry and where it is.
-fn element(key: String, element: &At<'_>) -> Result<Block, MeshError> {
+/// True if an edge of the graph has modifiers.
+fn has_modifiers(graph: &At<'_>) -> Result<bool, MeshError> {
+    let Some(edges) = graph.get("edge") else { return Ok(false) };
+    for (_, ends) in edges.fields()? {
+        for (_, edge) in ends.fields()? {
+            if edge.get("modifiers").is_some_and(|all| all.value.as_array().is_some_and(|all| !all.is_empty())) {
+                return Ok(true);
+            }
+        }
+    }
+    Ok(false)
+}
+
+/// A density, which is positive.
+fn density_of(at: &At<'_>) -> Result<f64, MeshError> {
+    let density = at.number()?;
+    if density > 0.0 {
+        Ok(density)
+    } else {
+        Err(at.fault(format!("a density of {density}"), "expected a positive number, in kg/m³"))
+    }
+}
+
+/// The density of each material of a model, kg/m³, by id.
+fn densities(top: &At<'_>) -> Result<BTreeMap<String, f64>, MeshError> {
+    let mut densities = BTreeMap::new();
+    let Some(materials) = top.get("materials") else { return Ok(densities) };
+    let all: Fields<'_> = match materials.value {
+        Value::Array(all) => {
+            let guid = |i: usize| all[i].get("guid").and_then(Value::as_str).map_or_else(|| i.to_string(), str::to_owned);
+            materials.items()?.into_iter().enumerate().map(|(i, at)| (guid(i), at)).collect()
+        }
+        _ => materials.fields()?,
+    };
+    for (id, material) in all {
+        if let Some(density) = material.get("density") {
+            densities.insert(id, density_of(&density)?);
+        }
+    }
+    Ok(densities)
+}
+
+/// Three rows of a transformation, each a point's factors and a shift.
+type Rows = [[f64; 4]; 3];
+
+/// What moves each element apart from its own transformation: those of the groups above it in the tree, the innermost first, then the model's. The
+/// id "" stands for elements that are not in the tree.
+fn moves(top: &At<'_>) -> Result<BTreeMap<String, Vec<Rows>>, MeshError> {
+    let of_model: Vec<Rows> = top.get("transformation").map(|at| rows(&at)).transpose()?.into_iter().collect();
+    let mut moves = BTreeMap::from([(String::new(), of_model.clone())]);
+    let Some(root) = top.get("tree").and_then(|tree| tree.get("root")) else { return Ok(moves) };
+    let Some(elements) = top.get("elements").filter(|elements| elements.value.is_object()) else { return Ok(moves) };
+    // JSON is at most 128 levels deep, so that there are few groups above any element.
+    let mut open = vec![(root, of_model)];
+    while let Some((node, above)) = open.pop() {
+        let Some(children) = node.get("children") else { continue };
+        for child in children.items()? {
+            let id = child.get("element").and_then(|id| id.text().map(str::to_owned));
+            let own = id.as_ref().and_then(|id| elements.get(id)?.get("transformation"));
+            let mut inside: Vec<Rows> = own.map(|at| rows(&at)).transpose()?.into_iter().collect();
+            inside.extend(&above);
+            if let Some(id) = id {
+                moves.insert(id, above.clone());
+            }
+            open.push((child, inside));
+        }
+    }
+    Ok(moves)
+}
+
+fn rows(transformation: &At<'_>) -> Result<Rows, MeshError> {
+    let rows = transformation.need("matrix")?.items()?;
+    let rows = rows.iter().map(json::At::numbers::<4>).collect::<Result<Vec<_>, _>>()?;
+    let [x, y, z, ..] = rows.as_slice() else {
+        return Err(transformation.fault("a matrix of fewer than 3 rows", "expected 4 rows of 4 numbers"));
+    };
+    Ok([*x, *y, *z])
+}
+
+fn transform(block: &mut Block, rows: &Rows) {
+    for point in &mut block.mesh.points {
+        *point = rows.map(|row| row[0] * point[0] + row[1] * point[1] + row[2] * point[2] + row[3]);
+    }
+}
+
+/// An element: a geometry and where it is, and a material by its id.
+fn element(key: String, element: &At<'_>, densities: &BTreeMap<String, f64>) -> Result<Block, MeshError> {
     let mut block = block(key, &element.need("geometry")?, Some(element))?;
     if let Some(name) = element.get("name").and_then(|name| name.text().map(str::to_owned)) {
         block.name = Some(name);
     }
+    if block.density.is_none() {
+        let material = element.get("material");
+        block.density = material.and_then(|id| densities.get(&id.key().ok()?).copied());
+    }
     if let Some(transformation) = element.get("transformation") {
-        let rows = transformation.need("matrix")?.items()?;
-        let rows = rows.iter().map(json::At::numbers::<4>).collect::<Result<Vec<_>, _>>()?;
-        let [x, y, z, ..] = rows.as_slice() else {
-            return Err(transformation.fault("a matrix of fewer than 3 rows", "expected 4 rows of 4 numbers"));
-        };
-        for point in &mut block.mesh.points {
-            *point = [x, y, z].map(|row| row[0] * point[0] + row[1] * point[1] + row[2] * point[2] + row[3]);
-        }
+        transform(&mut block, &rows(&transformation)?);
     }
     Ok(block)
 }
@@ -132,12 +274,25 @@ fn of_graph<'a>(
     nodes: &str,
     mut read: impl FnMut(&str, &At<'a>) -> Result<Block, MeshError>,
 ) -> Result<Assembly, MeshError> {
+    of_graph_with_gaps(graph, nodes, |key, node| read(key, node).map(Some))
+}
+
+/// The same where not every node is a block; edges of others are passed over.
+fn of_graph_with_gaps<'a>(
+    graph: &At<'a>,
+    nodes: &str,
+    mut read: impl FnMut(&str, &At<'a>) -> Result<Option<Block>, MeshError>,
+) -> Result<Assembly, MeshError> {
     // Attributes that a node lacks are the graph's.
     let defaults = ["default_node_attributes", "node_attributes", "default_vertex_attributes", "dva"];
     let held = defaults.iter().find_map(|name| graph.get(name)?.get("is_support")).is_some_and(|flag| flag.is_set());
     let mut assembly = Assembly::default();
+    let mut gaps = BTreeSet::new();
     for (key, node) in graph.need(nodes)?.fields()? {
-        let mut block = read(&key, &node)?;
+        let Some(mut block) = read(&key, &node)? else {
+            gaps.insert(key);
+            continue;
+        };
         block.support |= held && node.get("is_support").is_none();
         assembly.blocks.push(block);
     }
@@ -149,6 +304,9 @@ fn of_graph<'a>(
     let mut interfaces = Vec::new();
     for (from, ends) in edges.fields()? {
         for (to, edge) in ends.fields()? {
+            if gaps.contains(&from) || gaps.contains(&to) {
+                continue;
+            }
             let blocks = [place(&from, &ends)?, place(&to, &ends)?];
             for points in polygons(&edge)? {
                 interfaces.push(Interface { blocks, points });
@@ -177,8 +335,14 @@ fn polygons(edge: &At<'_>) -> Result<Vec<Vec<[f64; 3]>>, MeshError> {
 fn block(key: String, mesh: &At<'_>, node: Option<&At<'_>>) -> Result<Block, MeshError> {
     let attribute = |name: &str| mesh.get("attributes").and_then(|attributes| attributes.get(name));
     let name = attribute("name").and_then(|name| name.text().map(str::to_owned));
-    let flag = node.and_then(|node| node.get("is_support")).or_else(|| attribute("is_support"));
-    Ok(Block { key, name, mesh: polygon_mesh(mesh)?.of_file(), support: flag.is_some_and(|flag| flag.is_set()) })
+    let attributes = mesh.get("attributes");
+    let of_any = |name: &str| node.and_then(|node| node.get(name)).or_else(|| attribute(name));
+    let material = of_any("material").and_then(|material| material.get("density"));
+    let density = of_any("density").or(material).map(|density| density_of(&density)).transpose()?;
+    let sources = node.into_iter().chain(&attributes);
+    let flags = sources.map(At::flags).collect::<Vec<_>>().concat();
+    let support = of_any("is_support").is_some_and(|flag| flag.is_set());
+    Ok(Block { key, name, mesh: polygon_mesh(mesh)?.of_file(), support, density, flags })
 }
 
 /// A mesh: `vertex` and `face` by key, or a polyhedron's lists `vertices` and `faces`.

@@ -89,6 +89,15 @@ impl<'a> At<'a> {
     }
 }
 
+impl At<'_> {
+    /// The keys of an object whose values are flags that are set.
+    pub(super) fn flags(&self) -> Vec<String> {
+        let is_set = |value: &Value| value.as_bool().unwrap_or(value.as_f64().is_some_and(|x| x != 0.0));
+        let object = self.value.as_object().into_iter().flatten();
+        object.filter(|(_, value)| is_set(value)).map(|(key, _)| key.clone()).collect()
+    }
+}
+
 /// A key without the quotes that its writer may have put around it.
 fn bare(key: &str) -> String {
     key.trim_matches('\'').to_owned()

@@ -140,3 +140,85 @@ fn what_is_no_assembly_is_said_with_the_way_to_it() {
         assert!(message.contains(words), "{text}: {message}");
     }
 }
+
+fn volume_and_centre(block: &Block) -> (f64, [f64; 3]) {
+    let mass = *block.mesh.triangulated().closed().unwrap_or_else(|error| panic!("{error}")).mass();
+    (mass.volume, mass.centre)
+}
+
+fn rounded(x: f64) -> f64 {
+    (1e9 * x).round() / 1e9
+}
+
+fn shift(x: f64) -> String {
+    format!(
+        r#"{{"dtype": "compas.geometry/Transformation", "data": {{"matrix": [[1, 0, 0, {x:?}], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}}}}"#
+    )
+}
+
+/// Elements in a list are known by their guid; a group moves what is in it, and the model all.
+#[test]
+fn elements_may_be_a_list_or_stand_in_groups() {
+    let mesh = r#"{"dtype": "compas.datastructures/Mesh", "data": DATA}"#;
+    let element = |z: f64, guid: &str, more: &str| {
+        let geometry = cube(z, mesh);
+        format!(
+            r#"{{"dtype": "compas_dem.elements/Block", "data": {{"transformation": null, "geometry": {geometry}{more}}}, "guid": "{guid}"}}"#
+        )
+    };
+    let (one, two) = (element(0.0, "p", r#", "is_support": true"#), element(1.0, "q", r#", "material": "m""#));
+    let model = |elements: &str, graph: &str| {
+        format!(
+            r#"{{"dtype": "compas_dem.models/BlockModel", "data": {{"transformation": null, "elements": [{elements}],
+            "materials": {{"m": {{"dtype": "compas_model.materials/Stone", "data": {{"density": 2700.0}}}}}}{graph}}}}}"#
+        )
+    };
+    let read = assembly(&model(&format!("{one}, {two}"), ""));
+    let keys: Vec<_> = read.blocks.iter().map(|block| (block.key.as_str(), block.support, block.density)).collect();
+    assert_eq!(keys, [("0", true, None), ("1", false, Some(2700.0))]);
+    let graph =
+        r#", "graph": {"node": {"7": {"element": "q"}, "3": {"element": "p"}}, "edge": {"3": {"7": {"modifiers": [{}]}}}}"#;
+    let read = assembly(&model(&format!("{one}, {two}"), graph));
+    let keys: Vec<_> = read.blocks.iter().map(|block| (block.key.as_str(), rounded(volume_and_centre(block).1[2]))).collect();
+    assert_eq!(keys, [("3", 0.5), ("7", 1.5)]);
+    assert!(read.remarks[0].contains("modifiers"), "{:?}", read.remarks);
+
+    let group = format!(r#""g": {{"dtype": "compas_model.elements/Group", "data": {{"transformation": {}}}}}"#, shift(10.0));
+    let text = format!(
+        r#"{{"transformation": {}, "elements": {{{group}, "p": {one}, "q": {two}}}, "graph": {{"node": {{"0": {{"element": "g"}},
+        "1": {{"element": "p"}}, "2": {{"element": "q"}}}}, "edge": {{"0": {{"1": {{}}}}}}}},
+        "tree": {{"root": {{"children": [{{"name": "g", "element": "g", "children": [{{"element": "p"}}]}}, {{"element": "q"}}]}}}}}}"#,
+        shift(100.0)
+    );
+    let read = assembly(&text);
+    let places: Vec<_> = read.blocks.iter().map(|block| (block.key.as_str(), rounded(volume_and_centre(block).1[0]))).collect();
+    assert_eq!(places, [("1", 110.5), ("2", 100.5)]);
+}
+
+#[test]
+fn lists_hold_meshes_elements_and_lists() {
+    let mesh = cube(0.0, "DATA");
+    for (text, count) in [
+        (format!("[[{mesh}, {mesh}], {mesh}]"), 3),
+        (format!(r#"[{{"geometry": {mesh}}}, {mesh}]"#), 2),
+        (format!(r#"{{"meshes": [{mesh}, {mesh}]}}"#), 2),
+        (format!(r#"{{"blocks": {{"a": {mesh}, "b": {{"geometry": {mesh}, "is_support": true}}}}}}"#), 2),
+    ] {
+        let read = assembly(&text);
+        assert_eq!(read.blocks.len(), count, "{text}");
+        assert!(read.blocks.iter().all(|block| (volume_and_centre(block).0 - 1.0).abs() < 1e-14));
+    }
+}
+
+#[test]
+fn densities_and_flags_of_blocks_are_read() {
+    let wrap = r#"{"attributes": {"density": 2000, "is_fixed": true, "is_top": 0}, "REST"#;
+    let mesh = cube(0.0, "DATA").replacen(r#"{"attributes": {"name": "cube"}, ""#, &wrap.replace("REST", ""), 1);
+    let text = format!(r#"{{"node": {{"0": {{"block": {mesh}, "density": 1800.5}}, "1": {{"block": {mesh}, "chosen": 1}}}}}}"#);
+    let read = assembly(&text);
+    assert_eq!(read.blocks.iter().map(|block| block.density).collect::<Vec<_>>(), [Some(1800.5), Some(2000.0)]);
+    assert!(!read.blocks[0].flags.contains(&"chosen".into()) && read.blocks[1].flags.contains(&"chosen".into()));
+    assert!(read.blocks.iter().all(|block| block.flags.contains(&"is_fixed".into()) && !block.flags.contains(&"is_top".into())));
+    let error = Assembly::from_json(text.replace("1800.5", "-1").as_bytes(), "x.json").unwrap_err().to_string();
+    assert!(error.contains("node.0.density: a density of -1"), "{error}");
+}
