@@ -84,6 +84,11 @@ impl Failure {
     }
 }
 
+/// Prints something that does no harm on the standard error.
+pub(crate) fn remark(text: &str) {
+    let _ = writeln!(std::io::stderr(), "note: {text}");
+}
+
 /// Writes to the standard output; a closed pipe ends the program quietly, as `head` expects.
 pub(crate) fn say(text: &str) -> Result<(), Failure> {
     match std::io::stdout().lock().write_all(text.as_bytes()) {

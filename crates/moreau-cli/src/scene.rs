@@ -33,13 +33,15 @@ pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, Failure> {
     pool.map_err(|error| Failure::computation(format!("cannot start {threads} threads: {error}")))
 }
 
-/// Reads a scene with its overrides.
+/// Reads a scene with its overrides, and prints what is remarked about its files.
 pub(crate) fn load(path: &Path, sets: &[String]) -> Result<Scene, Failure> {
     if let Err(error) = std::fs::read(path) {
         let hint = "give the path of a scene file, or make one with `moreau new NAME`";
         return Err(Failure::file(format!("{}: cannot read the scene: {error}; {hint}", path.display())));
     }
-    Scene::load_with(path, sets).map_err(Failure::scene)
+    let scene = Scene::load_with(path, sets).map_err(Failure::scene)?;
+    scene.remarks().iter().for_each(|remark| crate::failure::remark(remark));
+    Ok(scene)
 }
 
 /// Makes the scene's world, if it fits into memory.

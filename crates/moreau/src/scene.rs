@@ -55,8 +55,8 @@ pub use generate::{Generate, Lattice, LatticeKind, LogNormal, Packing, Radii, Ra
 pub use joints::{JointKindSpec, JointSpec};
 pub use shape::{PartSpec, ShapeSpec};
 pub use spec::{
-    BodySpec, CheckpointSpec, Container, Face, GuardSpec, Import, Material, MaxPenetration, MotionKind, Never, Output,
-    OutputKind, PairLaw, Solver, StartSpec, Time,
+    BlockSpec, BodySpec, CheckpointSpec, Container, Face, GuardSpec, Import, Material, MaxPenetration, MotionKind, Never, Output,
+    OutputKind, PairLaw, Solver, Split, StartSpec, SupportsSpec, Time,
 };
 pub use values::{Angular, Dimension, Numbers, Orientation, Turn};
 
@@ -137,6 +137,19 @@ pub struct Scene {
     /// The text, for the places of errors.
     #[serde(skip)]
     source: Source,
+    /// What its files had wrong that did not prevent reading them.
+    #[serde(skip)]
+    remarks: Remarks,
+}
+
+/// What was remarked when a scene was read. It is no part of what the scene says: scenes compare without it.
+#[derive(Clone, Debug, Default)]
+struct Remarks(Vec<String>);
+
+impl PartialEq for Remarks {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// A world of either dimension.
@@ -198,6 +211,12 @@ impl Scene {
             Source::new(&name, "", &[]).fault(&fault)
         })?;
         Self::parse_with(&text, &name, sets)
+    }
+
+    /// Returns what was remarked when the scene was read, a sentence each: what its files have wrong that did not prevent reading them, and
+    /// what they say that may not be meant.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks.0
     }
 
     /// The scene as TOML with all defaults and overrides in place: what was run. (A scene that was not read but put together with

@@ -127,6 +127,184 @@ fn the_blocks_of_an_assembly_stand_on_each_other() {
     assert!(error.contains("did you mean `stone`?"), "{error}");
 }
 
+/// The second of two texts of OBJ with its points counted from the end, so that it can follow the first: each has eight.
+fn from_end(obj: &str) -> String {
+    let word = |word: &str| word.parse::<i32>().map_or(word.to_owned(), |number| (number - 9).to_string());
+    let line = |line: &str| match line.starts_with('f') {
+        true => line.split(' ').map(word).collect::<Vec<_>>().join(" "),
+        false => line.to_owned(),
+    };
+    obj.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
+}
+
+fn remarks(files: &[(&str, &str)], body: &str) -> Vec<String> {
+    let (_folder, path) = folder(files, body);
+    Scene::load(&path).unwrap_or_else(|error| panic!("{error}")).remarks().to_vec()
+}
+
+#[test]
+fn objects_of_a_file_are_bodies_if_the_scene_asks_for_it() {
+    let low = box_obj([-0.1, -0.1, 0.0], [0.1, 0.1, 0.2]);
+    let high = from_end(&box_obj([-0.1, -0.1, 0.3], [0.1, 0.1, 0.5]));
+    let wall = format!("o low\n{low}o high\n{high}");
+    let import = "[[import]]\nmeshes = { file = \"wall.obj\", material = \"stone\" }\n";
+    let mut world = built(&[("wall.obj", &wall)], import).unwrap();
+    // Two bodies and the ground.
+    assert_eq!(world.bodies.len(), 3);
+    run(&mut world, 600);
+    let heights = [0, 1].map(|i| world.bodies.pose[i].position[2]);
+    assert!((heights[0] - 0.1).abs() < 1e-6 && (heights[1] - 0.3).abs() < 1e-3, "{heights:?}");
+    let (_folder, path) = folder(&[("wall.obj", &wall)], import);
+    let scene = Scene::load(&path).unwrap();
+    assert_eq!((scene.body_name(0).as_deref(), scene.body_name(1).as_deref()), (Some("import[0] low"), Some("import[0] high")));
+    assert!(scene.remarks().is_empty());
+
+    // As one body they are remarked, as ground they are not.
+    let shape = "mesh = { file = \"wall.obj\", decompose = true }";
+    let said = remarks(&[("wall.obj", &wall)], &at(shape, 0.0));
+    assert!(
+        said.len() == 1 && said[0].contains("bodies[0].shape.mesh.file") && said[0].contains("2 objects that share no points"),
+        "{said:?}"
+    );
+    assert!(remarks(&[("wall.obj", &wall)], &at("mesh = { file = \"wall.obj\" }", 0.0)).is_empty());
+
+    // Without names the parts are bodies, if that is asked for.
+    let unnamed = format!("{low}{high}");
+    let said = remarks(&[("wall.obj", &unnamed)], &import.replace(" }", ", decompose = true }"));
+    assert!(said.len() == 1 && said[0].contains("split = \"parts\""), "{said:?}");
+    let parts = import.replace(" }", ", split = \"parts\", motion = \"fixed\" }");
+    let world = built(&[("wall.obj", &unnamed)], &parts).unwrap();
+    assert!(world.bodies.len() == 3 && !world.bodies.is_free(0));
+    let error = built(&[("wall.obj", &format!("o open\n{}", low.replace("f 5 6 8 7\n", "")))], import).unwrap_err();
+    assert!(error.contains("object \"open\"") && error.contains("the mesh is open"), "{error}");
+}
+
+/// A ground of two steps whose boxes share an edge or a face: four triangles at some edges. A box that slides over it stays level.
+#[test]
+fn a_ground_of_boxes_that_share_edges_carries_bodies() {
+    let ground = |second: [[f64; 3]; 2]| {
+        let boxes = box_obj([-1.0, -1.0, 0.0], [0.0, 1.0, 0.5]) + &from_end(&box_obj(second[0], second[1]));
+        let ground = at("mesh = { file = \"ground.obj\" }", 0.0);
+        let slider = at("box = { size = [0.2, 0.2, 0.2] }", 0.6).replace("[0.0,", "[-0.5,") + "velocity = [2.0, 0.0, 0.0]\n";
+        let smooth = format!("{ground}{slider}");
+        built(&[("ground.obj", &boxes)], &smooth)
+    };
+    // A face in common, of boxes of one height.
+    let mut world = ground([[0.0, -1.0, 0.0], [1.0, 1.0, 0.5]]).unwrap();
+    world.laws = moreau::laws::Laws::new(1, moreau_solve::Law::Frictionless(Default::default()));
+    run(&mut world, 400);
+    let (pose, velocity) = (world.bodies.pose[1], world.bodies.velocity[1]);
+    assert!((pose.position[2] - 0.6).abs() < 1e-6 && (velocity[0] - 2.0).abs() < 1e-6, "{pose:?} {velocity:?}");
+    // An edge in common: a step up, which stops it.
+    let mut world = ground([[0.0, -1.0, 0.5], [1.0, 1.0, 1.0]]).unwrap();
+    run(&mut world, 400);
+    let position = world.bodies.pose[1].position;
+    assert!(position[0] < -0.1 + 1e-3 && (position[2] - 0.6).abs() < 1e-2, "{position:?}");
+}
+
+/// Blocks with a hook each, whose concave ends are faces of eight corners. A fan of triangles around the first corner of such a face reaches
+/// into the other block.
+#[test]
+fn hooks_that_lie_in_each_other_do_not_overlap_at_the_start() {
+    let hook = |outline: &[[f64; 2]], key: &str, support: bool| {
+        let count = outline.len();
+        let vertex = |(i, [x, z]): (usize, &[f64; 2])| {
+            [
+                format!("\"{i}\": {{\"x\": {x}, \"y\": 0, \"z\": {z}}}"),
+                format!("\"{}\": {{\"x\": {x}, \"y\": 0.3, \"z\": {z}}}", i + count),
+            ]
+            .join(", ")
+        };
+        let vertices = outline.iter().enumerate().map(vertex).collect::<Vec<_>>().join(", ");
+        let front: Vec<String> = (0..count).map(|i| i.to_string()).collect();
+        let back: Vec<String> = (0..count).rev().map(|i| (i + count).to_string()).collect();
+        let sides = (0..count)
+            .map(|i| format!("\"{}\": [{}, {}, {}, {}]", i + 2, (i + 1) % count, i, i + count, (i + 1) % count + count));
+        let faces =
+            [format!("\"0\": [{}], \"1\": [{}]", front.join(", "), back.join(", "))].into_iter().chain(sides).collect::<Vec<_>>();
+        format!(
+            "\"{key}\": {{\"is_support\": {support}, \"block\": {{\"vertex\": {{{vertices}}}, \"face\": {{{}}}}}}}",
+            faces.join(", ")
+        )
+    };
+    // Seen from −y, counter-clockwise: an L that lies, and one that is put into it upside down. The step is at x = 0.5.
+    let low = [[0.5, 0.5], [0.0, 0.5], [0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.5, 0.25]];
+    let high = [[0.5, 0.25], [1.0, 0.25], [1.0, 0.75], [0.0, 0.75], [0.0, 0.5], [0.5, 0.5]];
+    for begin in 0..6 {
+        let turned = |outline: &[[f64; 2]; 6]| {
+            let mut outline = *outline;
+            outline.rotate_left(begin);
+            outline
+        };
+        let json = format!(
+            "{{\"node\": {{{}, {}}}, \"edge\": {{}}}}",
+            hook(&turned(&low), "low", true),
+            hook(&turned(&high), "high", false)
+        );
+        let import = "[[import]]\nassembly = { file = \"hooks.json\", material = \"stone\", decompose = true }\n";
+        let mut world = built(&[("hooks.json", &json)], import).unwrap_or_else(|error| panic!("{begin}: {error}"));
+        // Blocks come in the order of their keys.
+        assert!(world.bodies.is_free(0) && !world.bodies.is_free(1));
+        let before = world.bodies.pose[0].position;
+        run(&mut world, 50);
+        let after = world.bodies.pose[0].position;
+        assert!((0..3).all(|k| (after[k] - before[k]).abs() < 1e-4), "{begin}: {before:?} {after:?}");
+    }
+}
+
+#[test]
+fn an_import_names_supports_densities_and_overlaps() {
+    let block = |z: f64, more: &str| {
+        let corner = |i: usize| {
+            let [x, y, up] = [0, 1, 2].map(|k| (i >> k & 1) as f64);
+            format!("[{x}, {y}, {}]", up + z)
+        };
+        let corners = (0..8).map(corner).collect::<Vec<_>>().join(", ");
+        let faces = "[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]";
+        format!("{{\"geometry\": {{\"vertices\": [{corners}], \"faces\": [{faces}]}}{more}}}")
+    };
+    // The third stands 1 % of a block deep in the second.
+    let json = format!(
+        "{{\"elements\": [{}, {}, {}]}}",
+        block(0.0, ""),
+        block(1.0, ", \"density\": 2000"),
+        block(1.99, ", \"held\": true")
+    );
+    let file = [("three.json", json.as_str())];
+    let with = |more: &str| format!("[[import]]\nassembly = {{ file = \"three.json\", material = \"stone\"{more} }}\n");
+    let error = built(&file, &with("")).unwrap_err();
+    assert!(error.contains("overlap at the start by 1.0") && error.contains("start.max_overlap = 0.001"), "{error}");
+    let masses = |more: &str| {
+        let world = built(&file, &with(&format!(", max_overlap = 0.05{more}"))).unwrap_or_else(|error| panic!("{more}: {error}"));
+        [0, 1, 2].map(|i| if world.bodies.is_free(i) { world.bodies.mass[i][0].round() } else { f64::INFINITY })
+    };
+    let held = f64::INFINITY;
+    assert_eq!(masses(""), [1000.0, 2000.0, 1000.0]);
+    assert_eq!(masses(", density = 500.0"), [500.0, 500.0, 500.0]);
+    assert_eq!(masses(", density = 500.0, blocks.1.density = 700.0"), [500.0, 700.0, 500.0]);
+    assert_eq!(masses(", supports.index = [0, 2]"), [held, 2000.0, held]);
+    assert_eq!(masses(", supports.key = [\"1\"]"), [1000.0, held, 1000.0]);
+    assert_eq!(masses(", supports.below = 0.5"), [held, 2000.0, 1000.0]);
+    assert_eq!(masses(", supports.attribute = \"held\""), [1000.0, 2000.0, held]);
+    assert_eq!(masses(", supports.below = 1.5, blocks = { 0 = { support = false } }"), [1000.0, held, 1000.0]);
+    let only = ", blocks = { 2 = { max_overlap = 0.05 } }";
+    assert!(built(&file, &with(only)).is_ok());
+    let said = remarks(&file, &with(only));
+    assert!(said.len() == 1 && said[0].contains("three.json gives 1 blocks a density of their own, 2000 kg/m³"), "{said:?}");
+    for (more, words) in [
+        (", supports.index = [3]", "there is no block 3"),
+        (", supports.key = [\"3\"]", "there is no block `3`"),
+        (", supports.below = -1.0", "no block begins below -1 m: the lowest point is at 0 m"),
+        (", supports.attribute = \"is_fixed\"", "no block has the attribute `is_fixed` set"),
+        (", blocks.7.density = 1.0", "there is no block `7`"),
+        (", blocks.1.density = 0.0", "density is 0"),
+        (", concavity = 0.1", "add decompose = true"),
+    ] {
+        let error = built(&file, &with(more)).unwrap_err();
+        assert!(error.contains(words), "{more}: {error}");
+    }
+}
+
 /// What is wrong with a mesh is said, whether it is to be a surface or a body; what is only ugly runs.
 #[test]
 fn hostile_meshes_get_an_error_or_a_sound_run() {

@@ -98,7 +98,7 @@ fn explicit<S: SceneSpace<D, N>, const D: usize, const N: usize>(
         shape,
         velocity: velocity_in_body::<S, D, N>(pose.rotation, &velocity),
         pose,
-        density,
+        density: spec.density.unwrap_or(density),
         material,
         motion: if spec.motion() == MotionKind::Free { Motion::Free } else { Motion::Driven },
         load: S::join(vector(&spec.force), spec.torque.as_ref()),

@@ -183,6 +183,7 @@ pub(super) fn bodies<S: SceneSpace<D, N>, const D: usize, const N: usize>(
             name: build.name_of(number),
             shape: piece.shape,
             material: build.material.clone(),
+            density: None,
             position: (0..D).map(|k| origin[k] + at[k]).collect(),
             orientation: build.orientation.clone(),
             velocity: Vec::new(),
@@ -192,6 +193,7 @@ pub(super) fn bodies<S: SceneSpace<D, N>, const D: usize, const N: usize>(
             torque: None,
             drive: Vec::new(),
             removed_at: None,
+            max_overlap: None,
         }
     };
     Ok((0..).zip(builder.pieces(&Site::new(scene, index, build))?).map(place).collect())

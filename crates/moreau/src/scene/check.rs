@@ -9,6 +9,7 @@ mod plane;
 mod solid;
 
 pub(super) use plane::{Refusal, polygon_error, polyline_error};
+pub(super) use solid::concavity;
 
 use super::error::{Fault, nearest};
 use super::path::{KeyPath, Segment, key_path};
@@ -33,11 +34,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
         return Err(Fault::new(key_path!["solver", "max_penetration"], format!("max_penetration is {part}"), hint));
     }
     materials_and_laws(scene)?;
-    let max_overlap = scene.start.max_overlap;
-    if !(0.0..=1.0).contains(&max_overlap) {
-        let hint = "expected a part of the smaller radius, from 0 to 1";
-        return Err(Fault::new(key_path!["start", "max_overlap"], format!("max_overlap is {max_overlap}"), hint));
-    }
+    max_overlap(key_path!["start", "max_overlap"], scene.start.max_overlap)?;
     guard(scene)?;
     output(&scene.output)?;
     checkpoint(&scene.checkpoint)?;
@@ -47,6 +44,14 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
     joints::check(scene)?;
     events::check(scene)?;
     count(scene)
+}
+
+/// How far bodies may overlap at the start.
+pub(super) fn max_overlap(path: KeyPath, part: f64) -> Result<(), Fault> {
+    if (0.0..=1.0).contains(&part) {
+        return Ok(());
+    }
+    Err(Fault::new(path, format!("max_overlap is {part}"), "expected a part of the smaller radius, from 0 to 1"))
 }
 
 fn time(scene: &Scene) -> Result<(), Fault> {

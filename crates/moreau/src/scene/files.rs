@@ -1,5 +1,7 @@
 //! Files that a scene names: they are read with it, and what they hold takes their place.
 
+mod assembly;
+mod meshes;
 mod solid;
 mod unread;
 
@@ -15,28 +17,30 @@ use std::path::Path;
 /// Reads the files of a scene; their paths are relative to `folder`.
 pub(super) fn read(scene: &mut Scene, folder: &Path) -> Result<(), Fault> {
     for (i, body) in scene.bodies.iter_mut().enumerate() {
-        shape(&mut body.shape, folder, &key_path!["bodies", i, "shape"])?;
+        shape(&mut body.shape, folder, &key_path!["bodies", i, "shape"], &mut scene.remarks.0)?;
     }
     for (i, import) in std::mem::take(&mut scene.import).into_iter().enumerate() {
         let path = key_path!["import", i];
         let (name, dimension) = match import {
             Import::Polygons { .. } => ("polygons", 2),
             Import::Assembly { .. } => ("assembly", 3),
+            Import::Meshes { .. } => ("meshes", 3),
         };
         let path = path.then(name);
         if scene.dimension.number() != dimension {
             let message = format!("{name} where dimension = {}", scene.dimension.number());
             return Err(Fault::new(path, message, format!("expected dimension = {dimension}")));
         }
-        match dimension {
-            2 => polygons(scene, import, i, folder, &path)?,
-            _ => solid::assembly(scene, import, i, folder, &path)?,
+        match import {
+            Import::Polygons { .. } => polygons(scene, import, i, folder, &path)?,
+            Import::Assembly { .. } => assembly::read(scene, import, i, folder, &path)?,
+            Import::Meshes { .. } => meshes::read(scene, import, i, folder, &path)?,
         }
     }
     Ok(())
 }
 
-fn shape(spec: &mut ShapeSpec, folder: &Path, path: &KeyPath) -> Result<(), Fault> {
+fn shape(spec: &mut ShapeSpec, folder: &Path, path: &KeyPath, remarks: &mut Vec<String>) -> Result<(), Fault> {
     let path = path.then(spec.name());
     match spec {
         ShapeSpec::Polygon { vertices, file, decompose } => {
@@ -49,9 +53,11 @@ fn shape(spec: &mut ShapeSpec, folder: &Path, path: &KeyPath) -> Result<(), Faul
         }
         ShapeSpec::Compound { parts } => {
             let mut parts = parts.iter_mut().enumerate();
-            parts.try_for_each(|(i, PartSpec { shape: spec, .. })| shape(spec, folder, &path.then("parts").then(i).then("shape")))
+            parts.try_for_each(|(i, PartSpec { shape: spec, .. })| {
+                shape(spec, folder, &path.then("parts").then(i).then("shape"), remarks)
+            })
         }
-        _ => solid::shape(spec, folder, &path),
+        _ => solid::shape(spec, folder, &path, remarks),
     }
 }
 
@@ -117,12 +123,23 @@ fn polygons(scene: &mut Scene, import: Import, number: usize, folder: &Path, pat
     Ok(())
 }
 
+/// How a mesh becomes a body.
+#[derive(Clone, Copy)]
+struct Made {
+    /// True if it may be cut into convex pieces.
+    decompose: bool,
+    concavity: Option<f64>,
+    /// True if the body is fixed or driven, so that a mesh that bounds no volume can be a surface.
+    is_fixed: bool,
+}
+
 /// A body at rest.
 fn body(name: String, shape: ShapeSpec, material: &str, position: Vec<f64>, motion: Option<MotionKind>) -> BodySpec {
     BodySpec {
         name: Some(name),
         shape,
         material: material.to_owned(),
+        density: None,
         position,
         orientation: None,
         velocity: Vec::new(),
@@ -132,5 +149,6 @@ fn body(name: String, shape: ShapeSpec, material: &str, position: Vec<f64>, moti
         torque: None,
         drive: Vec::new(),
         removed_at: None,
+        max_overlap: None,
     }
 }

@@ -24,7 +24,7 @@ pub enum ShapeSpec {
         /// Its corners in any order, m.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         points: Vec<Numbers<3>>,
-        /// In place of `points` a mesh that has them, .stl or .obj, beside the scene.
+        /// In place of `points` a mesh that has them, .stl, .obj, .ply, .gltf or .glb, beside the scene.
         file: Option<String>,
         /// By what the coordinates of the file are multiplied, such as 0.001 for a file in mm; default 1.
         scale: Option<f64>,
@@ -52,7 +52,8 @@ pub enum ShapeSpec {
         /// Three of the points for each triangle, by number from 0, counter-clockwise seen from the front.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         triangles: Vec<[u32; 3]>,
-        /// In place of `points` and `triangles` a file that has them, .stl or .obj, beside the scene.
+        /// In place of `points` and `triangles` a file that has them, .stl, .obj, .ply, .gltf or .glb, beside the scene. All its objects are
+        /// one mesh; to make a body of each, see `import`.
         file: Option<String>,
         /// By what the coordinates of the file are multiplied, such as 0.001 for a file in mm; default 1.
         scale: Option<f64>,
@@ -171,6 +172,11 @@ impl ShapeSpec {
             ShapeSpec::Polyline { .. } | ShapeSpec::HeightField { .. } => true,
             _ => self.has_normal(),
         }
+    }
+
+    /// True if it is a concave mesh that is cut into convex pieces.
+    pub(super) fn is_cut(&self) -> bool {
+        matches!(self, ShapeSpec::Mesh { decompose: true, .. })
     }
 
     /// Whether a normal says how it is turned.

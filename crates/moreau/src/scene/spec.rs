@@ -10,6 +10,7 @@ use crate::world::{OnBreach, OnFailure, Rows, Start};
 use moreau_solve::{Criterion, GlobalMethod, Kernels, Law, LocalMethod, Order, Parameter, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// How time advances.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -191,6 +192,8 @@ pub struct BodySpec {
     pub shape: ShapeSpec,
     /// The name of its material.
     pub material: String,
+    /// Its density, kg/m³ (kg/m² in the plane); default its material's.
+    pub density: Option<f64>,
     /// Where it is, m: the centre of mass; of a half-space or half-plane a point of its boundary; of a polygon, polyline, polyhedron,
     /// compound, mesh or height field the place of its coordinates' origin, so that the centre of mass is there plus the turned centroid.
     pub position: Vec<f64>,
@@ -216,6 +219,9 @@ pub struct BodySpec {
     pub drive: Vec<DriveSpec>,
     /// When it is taken out of the scene, s: at the first beginning of a step at or after this time; default never.
     pub removed_at: Option<f64>,
+    /// How far it may overlap others at the start, as a part of the smaller one's radius; default start.max_overlap. Of two bodies the
+    /// larger number counts.
+    pub max_overlap: Option<f64>,
 }
 
 /// Bodies from a file.
@@ -235,7 +241,28 @@ pub enum Import {
         /// How they move; default free.
         motion: Option<MotionKind>,
     },
-    /// The blocks of an assembly; in space. Those that the file calls supports are fixed.
+    /// The objects of a mesh file, a body each; in space. Convex ones are polyhedra. Others need `decompose`, or are surfaces if they are fixed
+    /// or driven.
+    Meshes {
+        /// A mesh, .stl, .obj, .ply, .gltf or .glb, beside the scene.
+        file: String,
+        /// The name of their material.
+        material: String,
+        /// By what all coordinates are multiplied, such as 0.001 for a file in mm; default 1.
+        scale: Option<f64>,
+        /// What makes a body: "objects" that the file names (`o` in OBJ, or `g` in a file without `o`; `solid` in STL of text; nodes in
+        /// glTF), or "parts", all triangles that are connected by shared points; default "objects".
+        #[serde(default)]
+        split: Split,
+        /// Whether bodies may be concave; see `mesh`.
+        #[serde(default, skip_serializing_if = "is_false")]
+        decompose: bool,
+        /// With `decompose`: by which part of the whole volume a piece may fail to be convex; default 0.01.
+        concavity: Option<f64>,
+        /// How they move; default free.
+        motion: Option<MotionKind>,
+    },
+    /// The blocks of an assembly; in space. Those that the file calls supports are fixed. Densities in the file replace that of the material.
     Assembly {
         /// A file that COMPAS wrote, JSON, beside the scene.
         file: String,
@@ -246,9 +273,63 @@ pub enum Import {
         /// Whether blocks may be concave; see `mesh`.
         #[serde(default, skip_serializing_if = "is_false")]
         decompose: bool,
+        /// With `decompose`: by which part of the whole volume a piece may fail to be convex; default 0.01.
+        concavity: Option<f64>,
         /// How those move that are no supports; default free.
         motion: Option<MotionKind>,
+        /// More supports than the file names.
+        supports: Option<SupportsSpec>,
+        /// Density of all blocks, kg/m³, in place of the file's and the material's.
+        density: Option<f64>,
+        /// How far a block may overlap others at the start, as a part of the smaller one's radius; default start.max_overlap.
+        max_overlap: Option<f64>,
+        /// What differs for single blocks, by their keys in the file.
+        #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+        blocks: BTreeMap<String, BlockSpec>,
     },
+}
+
+/// What makes a body of a mesh file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Split {
+    /// Each object that the file names.
+    #[default]
+    Objects,
+    /// All triangles that are connected by shared points.
+    Parts,
+}
+
+/// Which blocks of an assembly are supports, apart from those that the file calls so: all that one of these names.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SupportsSpec {
+    /// Numbers of blocks, from 0, in the order of their keys.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub index: Vec<usize>,
+    /// Keys of blocks in the file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub key: Vec<String>,
+    /// A height z, m: all blocks whose lowest point is not above it.
+    pub below: Option<f64>,
+    /// The name of an attribute in the file: all blocks for which it is true, or a number that is not zero.
+    pub attribute: Option<String>,
+}
+
+/// What differs for one block of an assembly.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BlockSpec {
+    /// Whether it is a support; default as the rest of the import says.
+    pub support: Option<bool>,
+    /// The name of its material.
+    pub material: Option<String>,
+    /// Its density, kg/m³.
+    pub density: Option<f64>,
+    /// With `decompose`: by which part of the whole volume a piece may fail to be convex.
+    pub concavity: Option<f64>,
+    /// How far it may overlap others at the start, as a part of the smaller one's radius.
+    pub max_overlap: Option<f64>,
 }
 
 /// A container: walls around a region, each a fixed half-space (half-plane) that looks inwards and goes on beyond the region's

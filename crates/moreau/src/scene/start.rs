@@ -174,8 +174,14 @@ fn overlaps<S: SceneSpace<D, N>, const D: usize, const N: usize>(
         let radius = |i: u32| bodies.shape[i as usize].bounding_radius().unwrap_or(f64::INFINITY);
         -contact.gap / radius(contact.key.a).min(radius(contact.key.b))
     };
-    let Some(worst) = contacts.iter().max_by(|p, q| part(p).total_cmp(&part(q))) else { return Ok(()) };
-    if part(worst) <= scene.start.max_overlap {
+    let own = |i: u32| scene.bodies.get(i as usize).and_then(|body| body.max_overlap);
+    let allowed = |contact: &Contact<D>| {
+        let own = own(contact.key.a).into_iter().chain(own(contact.key.b)).reduce(f64::max);
+        own.unwrap_or(scene.start.max_overlap)
+    };
+    let excess = |contact: &Contact<D>| part(contact) - allowed(contact);
+    let Some(worst) = contacts.iter().max_by(|p, q| excess(p).total_cmp(&excess(q))) else { return Ok(()) };
+    if part(worst) <= allowed(worst) {
         return Ok(());
     }
     let (a, b) = (worst.key.a as usize, worst.key.b as usize);
@@ -186,6 +192,12 @@ fn overlaps<S: SceneSpace<D, N>, const D: usize, const N: usize>(
         label(scene, b),
         part(worst)
     );
-    let hint = format!("expected at most start.max_overlap = {}: move one of them", scene.start.max_overlap);
+    let mut hint = match own(worst.key.a).or(own(worst.key.b)) {
+        Some(_) => format!("expected at most {}, which max_overlap of these bodies allows: move one of them", allowed(worst)),
+        None => format!("expected at most start.max_overlap = {}: move one of them", scene.start.max_overlap),
+    };
+    if [a, b].iter().any(|&i| scene.bodies.get(i).is_some_and(|body| body.shape.is_cut())) {
+        hint += ", or, since convex pieces fill hollows up to their tolerance, set a smaller concavity";
+    }
     Err(fault(scene, b, "position", message, &hint))
 }

@@ -2,7 +2,7 @@
 
 use super::plane::{compound, polygon, polyline};
 use super::solid::pointed;
-use super::{angular, material, plural, positive, region, vector};
+use super::{angular, material, max_overlap, plural, positive, region, vector};
 use crate::scene::error::Fault;
 use crate::scene::path::{KeyPath, key_path};
 use crate::scene::{BodySpec, Container, Face, MotionKind, Numbers, Orientation, Scene, ShapeSpec, Turn};
@@ -23,6 +23,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), Fault> {
 fn body_of(scene: &Scene, body: &BodySpec, path: &KeyPath) -> Result<(), Fault> {
     shape(scene, &body.shape, &path.then("shape"))?;
     material(scene, path.then("material"), &body.material)?;
+    body.density.map_or(Ok(()), |density| positive(path.then("density"), density, "in kg/m³ (kg/m² in the plane)"))?;
+    body.max_overlap.map_or(Ok(()), |part| max_overlap(path.then("max_overlap"), part))?;
     vector(scene, path.then("position"), &body.position, false)?;
     vector(scene, path.then("velocity"), &body.velocity, true)?;
     vector(scene, path.then("force"), &body.force, true)?;

@@ -16,19 +16,24 @@ pub(super) fn pointed(shape: &ShapeSpec, path: &KeyPath) -> Result<(), Fault> {
         ShapeSpec::Mesh { points, triangles, file, scale, decompose, concavity } => {
             read(path, "triangles", triangles.is_empty(), file.as_deref(), scale.as_ref())?;
             mesh(path, points, triangles)?;
-            match concavity {
-                Some(_) if !decompose => {
-                    Err(Fault::new(path.then("concavity"), "a concavity of a surface", "add decompose = true, or leave it out"))
-                }
-                Some(x) if !(0.0..=1.0).contains(x) => {
-                    Err(Fault::new(path.then("concavity"), format!("concavity is {x}"), "expected a number from 0 to 1"))
-                }
-                _ => Ok(()),
-            }
+            self::concavity(path, *concavity, *decompose)
         }
         ShapeSpec::HeightField { spacing, heights, file, origin } => {
             read(path, "heights", heights.is_empty(), file.as_deref(), None)?;
             field(path, heights, spacing, origin.as_ref())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The tolerance of convex pieces, which only cut meshes have.
+pub(in crate::scene) fn concavity(path: &KeyPath, concavity: Option<f64>, decompose: bool) -> Result<(), Fault> {
+    match concavity {
+        Some(_) if !decompose => {
+            Err(Fault::new(path.then("concavity"), "a concavity of what is not cut", "add decompose = true, or leave it out"))
+        }
+        Some(x) if !(0.0..=1.0).contains(&x) => {
+            Err(Fault::new(path.then("concavity"), format!("concavity is {x}"), "expected a number from 0 to 1"))
         }
         _ => Ok(()),
     }
