@@ -94,12 +94,12 @@ fn a_disk_without_room_for_names_is_a_message() {
 }
 
 #[test]
-fn a_run_that_fails_in_its_first_step_goes_on_from_the_start() {
+fn a_run_that_fails_goes_on_from_the_step_before() {
     let place = Place::with("ten.toml", TEN);
     let strict = ["--set", "solver.on_failure=stop", "--set", "solver.max_sweeps=1", "--set", "solver.tolerance=1e-12"];
     let all = ["--quiet", "--set", "output.kinds=[\"steps\", \"measures\", \"vtk\", \"trajectory\"]"];
     let ran = place.moreau(&[&["run", "ten.toml", "--out", "failed"][..], &strict, &all].concat());
-    ran.fails(4, &["did not converge", "to go on from step 0: moreau run --resume failed"]);
+    ran.fails(4, &["did not converge", "to go on from step 1: moreau run --resume failed"]);
     let mild = ["--set", "solver.on_failure=warn", "--set", "solver.max_sweeps=100000", "--set", "solver.tolerance=1e-7"];
     place.moreau(&[&["run", "--resume", "failed", "--quiet"][..], &mild].concat()).fine();
     place.moreau(&[&["run", "ten.toml", "--out", "whole"][..], &all, &mild].concat()).fine();

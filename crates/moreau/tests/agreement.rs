@@ -14,7 +14,7 @@ fn agree<S: Space<D, N>, const D: usize, const N: usize>(mut world: World<S, D, 
     world.settings.solver.max_sweeps = 2_000_000;
     let probe = Probe::new(&world, at, 1e-12, &AtomicBool::new(false)).unwrap().expect("the run must arrive");
     for &(local, row) in LOCAL_METHODS {
-        let (history, difference) = probe.take((GlobalMethod::Nlgs, local));
+        let (history, difference) = probe.take((GlobalMethod::Nlgs, local), &AtomicBool::new(false));
         assert!(history.len() > 20, "{}: {} sweeps are no test", row.name, history.len());
         assert!(difference < 1e-6, "{} differs from the exact local solver by {difference:e} in step {at}", row.name);
     }

@@ -65,6 +65,6 @@ fn accelerated_sweeps_of_the_sedimentation_are_three_tenths_of_plain_ones_and_en
     let (plain, accelerated) = (sweeps(&start, GlobalMethod::Nlgs), sweeps(&start, GlobalMethod::Accelerated));
     assert!(accelerated <= 0.3 * plain, "{accelerated} sweeps a step, {plain} plain");
     let probe = Probe::new(&start, 1000, 1e-11, &AtomicBool::new(false)).expect("no output").expect("it converges");
-    let (_, difference) = probe.take((GlobalMethod::Accelerated, LocalMethod::Pdas));
+    let (_, difference) = probe.take((GlobalMethod::Accelerated, LocalMethod::Pdas), &AtomicBool::new(false));
     assert!(difference < 1e-7, "velocities differ by {difference}");
 }
