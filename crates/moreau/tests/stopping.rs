@@ -129,7 +129,7 @@ fn it_does_not_matter_when_a_step_is_stopped() {
 fn failed_first<S: Space<D, N>, const D: usize, const N: usize>(start: &World<S, D, N>) {
     let mut count = 0;
     disturbed(start, 20, |_, world, work| {
-        let (before, settings) = (state(world, work), world.settings.clone());
+        let (before, settings) = (state(world, work), world.settings);
         world.settings.solver.max_sweeps = 1;
         world.settings.solver.tolerance = 1e-14;
         world.settings.on_failure = moreau::world::OnFailure::Stop;
