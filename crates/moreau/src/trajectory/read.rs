@@ -185,17 +185,36 @@ pub(super) fn holds(file: &File, path: &Path, length: u64) -> Result<(), Traject
     Ok(())
 }
 
+/// A whole number, of whatever length another program has written it.
+fn integer(value: &AttrValue) -> Option<i64> {
+    match value {
+        AttrValue::I32(x) => Some(i64::from(*x)),
+        AttrValue::U32(x) => Some(i64::from(*x)),
+        AttrValue::I64(x) => Some(*x),
+        AttrValue::U64(x) => i64::try_from(*x).ok(),
+        _ => None,
+    }
+}
+
+/// A text, of whatever kind: as long as it is, padded, of variable length, or a list of one.
+fn text(value: &AttrValue) -> Option<String> {
+    match value {
+        AttrValue::String(text)
+        | AttrValue::AsciiString(text)
+        | AttrValue::VarLenString(text)
+        | AttrValue::VarLenAsciiString(text) => Some(text.clone()),
+        AttrValue::StringSized { value, .. } | AttrValue::AsciiStringSized { value, .. } => Some(value.clone()),
+        AttrValue::StringArray(texts) | AttrValue::AsciiStringArray(texts) | AttrValue::VarLenStringArray(texts) => {
+            texts.first().filter(|_| texts.len() == 1).cloned()
+        }
+        _ => None,
+    }
+}
+
 fn header(file: &File, path: &Path) -> Result<Header, TrajectoryError> {
     let attributes = file.root().attrs().map_err(|error| TrajectoryError::new(path, error))?;
-    let integer = |name: &str| match attributes.get(name) {
-        Some(AttrValue::I64(x)) => Some(*x),
-        Some(AttrValue::U64(x)) => i64::try_from(*x).ok(),
-        _ => None,
-    };
-    let text = |name: &str| match attributes.get(name) {
-        Some(AttrValue::String(text) | AttrValue::AsciiString(text)) => Some(text.clone()),
-        _ => None,
-    };
+    let integer = |name: &str| attributes.get(name).and_then(integer);
+    let text = |name: &str| attributes.get(name).and_then(text);
     if text("format").as_deref() != Some(FORMAT) {
         return Err(TrajectoryError::new(
             path,
