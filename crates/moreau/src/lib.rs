@@ -9,6 +9,7 @@ pub mod compare;
 pub mod contacts;
 pub mod convergence;
 pub mod detect;
+mod disjoint;
 pub mod drive;
 pub mod events;
 pub mod io;

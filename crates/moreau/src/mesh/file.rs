@@ -1,6 +1,7 @@
 //! What a file of meshes holds: one mesh, the objects that it consists of, and what its reader had to say.
 
 use super::{Mesh, MeshError, Place, bytes_of, gltf, obj, ply, stl};
+use crate::disjoint::representative;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -118,16 +119,16 @@ impl Mesh {
     pub fn parts(&self) -> Vec<Self> {
         let mut root: Vec<u32> = (0..self.points.len() as u32).collect();
         for &[a, b, c] in &self.triangles {
-            let first = find(&mut root, a);
+            let first = representative(&mut root, a);
             for other in [b, c] {
-                let other = find(&mut root, other);
+                let other = representative(&mut root, other);
                 root[other as usize] = first;
             }
         }
         let mut number = BTreeMap::new();
         let mut parts: Vec<Vec<u32>> = Vec::new();
         for (i, triangle) in (0..).zip(&self.triangles) {
-            let part = *number.entry(find(&mut root, triangle[0])).or_insert(parts.len());
+            let part = *number.entry(representative(&mut root, triangle[0])).or_insert(parts.len());
             if part == parts.len() {
                 parts.push(Vec::new());
             }
@@ -148,14 +149,4 @@ impl Mesh {
             triangles: triangles.iter().map(|corners| corners.map(place)).collect(),
         }
     }
-}
-
-/// The point that stands for all points connected to this one; ways to it become shorter.
-fn find(root: &mut [u32], point: u32) -> u32 {
-    let mut at = point;
-    while root[at as usize] != at {
-        root[at as usize] = root[root[at as usize] as usize];
-        at = root[at as usize];
-    }
-    at
 }

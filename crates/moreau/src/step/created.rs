@@ -11,6 +11,7 @@
 use super::joints::Block;
 use super::workspace::Localised;
 use crate::bodies::Bodies;
+use crate::disjoint::representative;
 use crate::space::Space;
 use moreau_solve::block::dot;
 use serde::{Deserialize, Serialize};
@@ -95,7 +96,7 @@ impl Islands {
     /// Joins the islands of two bodies under the smaller of their representatives.
     fn connect(&mut self, pair: [Option<u32>; 2]) {
         if let [Some(a), Some(b)] = pair {
-            let (a, b) = (self.find(a), self.find(b));
+            let (a, b) = (representative(&mut self.parent, a), representative(&mut self.parent, b));
             self.parent[a.max(b) as usize] = a.min(b);
         }
     }
@@ -103,19 +104,9 @@ impl Islands {
     /// Adds work to the island of a contact or joint; one between driven bodies has none.
     fn add(&mut self, [a, b]: [Option<u32>; 2], part: usize, work: f64) {
         if let Some(body) = a.or(b) {
-            let island = self.find(body);
+            let island = representative(&mut self.parent, body);
             self.work[island as usize][part] += work;
         }
-    }
-
-    /// Returns the representative of a body's island, and halves the path to it.
-    fn find(&mut self, mut body: u32) -> u32 {
-        while self.parent[body as usize] != body {
-            let next = self.parent[self.parent[body as usize] as usize];
-            self.parent[body as usize] = next;
-            body = next;
-        }
-        body
     }
 }
 
