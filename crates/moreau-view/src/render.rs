@@ -150,10 +150,10 @@ fn size(run: &Recording) -> f64 {
 fn colours<const D: usize>(run: &Recording, frame: &TrajectoryFrame, look: &Look) -> Vec<[u8; 3]> {
     let header = run.trajectory.header();
     let speed = lengths::<D>(&frame.velocity);
-    let most =
-        speed.iter().zip(&frame.motion).filter(|&(v, &motion)| motion == 2 && v.is_finite()).map(|(v, _)| *v).fold(0.0, f64::max);
+    let moving = (0..speed.len()).filter(|&i| frame.is_free(i) && speed[i].is_finite());
+    let most = moving.map(|i| speed[i]).fold(0.0, f64::max);
     let of = |i: usize| match look.colour {
-        _ if frame.motion[i] != 2 => [200, 203, 208],
+        _ if !frame.is_free(i) => [200, 203, 208],
         Colour::Speed => colour::sequential(if most > 0.0 { speed[i] / most } else { 0.0 }),
         Colour::Material if look.chains => [222, 226, 232],
         Colour::Material => colour::mix(colour::category(usize::from(header.material[i])), [255; 3], 0.25),

@@ -33,12 +33,22 @@ mod write;
 pub use read::{Trajectory, TrajectoryFrame};
 pub use write::{Header, TrajectoryWriter};
 
+use crate::bodies::Motion;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The version of the layout and of the columns of records.
 const VERSION: i64 = 4;
+
+/// The number in `frames/motion` for how a body moves.
+pub(crate) fn motion_number(motion: Motion) -> u8 {
+    match motion {
+        Motion::Absent => 0,
+        Motion::Driven => 1,
+        Motion::Free => 2,
+    }
+}
 
 /// What the attribute `format` says.
 const FORMAT: &str = "moreau trajectory";

@@ -5,12 +5,11 @@
 use super::background::{self, Background};
 use super::status::status;
 use super::{Frame, Observer, OutputError, numbers};
-use crate::bodies::Motion;
 use crate::checkpoint::Mark;
 use crate::shape::Shape;
 use crate::space::Space;
 use crate::step::Localised;
-use crate::trajectory::{Batch, Header, Precision, TrajectoryWriter};
+use crate::trajectory::{Batch, Header, Precision, TrajectoryWriter, motion_number};
 use crate::world::World;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -124,11 +123,7 @@ fn take<S: Space<D, N>, const D: usize, const N: usize>(to: &mut Batch, frame: &
             spin.extend(turned);
         }
     }
-    to.motion.extend(bodies.motion.iter().map(|motion| match motion {
-        Motion::Absent => 0,
-        Motion::Driven => 1,
-        Motion::Free => 2,
-    }));
+    to.motion.extend(bodies.motion.iter().copied().map(motion_number));
     for contact in contacts {
         let Localised { contact: c, .. } = contact;
         point.extend(c.point);

@@ -1,6 +1,7 @@
 //! Reading a trajectory, also of a run that goes on or was killed.
 
-use super::{FORMAT, Header, PAIRS, REALS, TrajectoryError, VERSION, widths};
+use super::{FORMAT, Header, PAIRS, REALS, TrajectoryError, VERSION, motion_number, widths};
+use crate::bodies::Motion;
 use crate::observe::COLUMNS;
 use hdf5_pure::{AttrValue, Dataset, Error, File};
 use std::path::{Path, PathBuf};
@@ -45,6 +46,13 @@ pub struct TrajectoryFrame {
     pub gap: Vec<f64>,
     /// One a contact.
     pub status: Vec<u8>,
+}
+
+impl TrajectoryFrame {
+    /// Whether body `i` is there and moves by forces and contacts.
+    pub fn is_free(&self, i: usize) -> bool {
+        self.motion[i] == motion_number(Motion::Free)
+    }
 }
 
 impl Trajectory {
