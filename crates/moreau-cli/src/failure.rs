@@ -67,7 +67,7 @@ impl Failure {
 
     /// Says it on the standard error as something that does no harm: what was done about it, and why.
     pub(crate) fn note(&self, done: &str) {
-        let _ = writeln!(std::io::stderr(), "note: {done}: {}", self.message);
+        remark(&format!("{done}: {}", self.message));
     }
 
     /// A last word with the code of this failure, whose own message was printed before.

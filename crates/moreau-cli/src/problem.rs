@@ -52,7 +52,7 @@ pub(crate) struct Solved {
     pub(crate) answer: Iterate,
 }
 
-/// The impulses from which a solve begins, zero where there are none, and how often it is repeated.
+/// A first guess of the impulses, zero where there is none, and how often the solve is repeated.
 type Guessed<'a> = (Option<&'a [f64]>, u16);
 
 /// Solves `problem` from its guess, as often as is asked, until `stop` is set.

@@ -1,4 +1,4 @@
-//! Each call by which a run changes files fails once: a message that names a file, nothing half written, and a run that goes on to the same bits.
+//! A run changes files by calls, and each of them fails once: the run names the file, leaves nothing half written, and goes on to the same bits.
 #![cfg(target_os = "linux")]
 
 mod common;

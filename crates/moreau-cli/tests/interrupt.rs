@@ -172,7 +172,7 @@ fn a_step_is_given_up_within_a_second_and_the_one_before_it_is_kept() {
         assert_eq!(code, Some(130), "{err}");
         let steps = place.summary(signal)["steps"].as_u64().unwrap();
         assert!(err.contains(&format!("the {steps} steps before are kept in {signal}; to go on from step {steps}: ")), "{err}");
-        // The step that was given up is none: it is in no file.
+        // No file has the step that was given up.
         assert_eq!(place.read(&format!("{signal}/steps.csv")).lines().count() as u64, 1 + steps);
     }
 }
