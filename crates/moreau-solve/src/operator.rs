@@ -8,7 +8,7 @@ mod matrix_free;
 
 pub use balls::Balls;
 pub use delassus::Delassus;
-pub use lightest::Lightest;
+pub use lightest::{Lightest, Standing};
 pub use matrix_free::{MatrixFree, NONE};
 
 use crate::block::{Matrix, Vector};

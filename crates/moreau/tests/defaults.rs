@@ -113,14 +113,14 @@ between = ["right"]
 "#;
 
 /// How far the box falls or moves in so many steps at `part` of the friction that holds it, m.
-fn slips(part: f64, global: &str, start: &str, steps: u64) -> f64 {
+fn slips(grip: &str, part: f64, (global, start): (&str, &str), steps: u64) -> f64 {
     let friction = part * 0.004 * 9.81 / (2.0 * 0.04);
     let sets = [
         format!("default_law.coulomb.friction={friction:?}"),
         format!("solver.global=\"{global}\""),
         format!("solver.start=\"{start}\""),
     ];
-    let mut world = build(GRIP, &sets);
+    let mut world = build(grip, &sets);
     let records = run(&mut world, steps);
     assert!(part < 1.0 || records.iter().all(StepRecord::converged), "{part}, {global}, {start}");
     world.bodies.pose[2].position.iter().map(|x| x.abs()).fold(0.0, f64::max)
@@ -131,14 +131,29 @@ fn a_box_between_pads_is_held_where_friction_can_hold_it_and_falls_where_it_cann
     for global in ["accelerated", "auto", "nlgs", "active_set", "admm", "apgd", "cpg"] {
         for start in ["warm", "cold"] {
             for part in [1.01, 1.2, 3.0] {
-                let moved = slips(part, global, start, 300);
+                let moved = slips(GRIP, part, (global, start), 300);
                 assert!(moved < 1e-10, "{global}, {start}: at {part} of the friction it needs the box moves by {moved} m");
             }
         }
     }
     for global in ["accelerated", "auto", "admm"] {
-        let fell = slips(0.99, global, "warm", 300);
+        let fell = slips(GRIP, 0.99, (global, "warm"), 300);
         // It is held by 0.99 of its weight: ½ 0.0981 m/s² (0.3 s)².
         assert!(fell > 4e-3, "{global}: it fell by {fell} m");
+    }
+}
+
+#[test]
+fn a_shelf_that_a_held_box_does_not_touch_changes_nothing() {
+    // Contacts with a gap are in the problem, as the box could fall on the shelf within the step.
+    let shelf = |gap: f64| {
+        let z = -0.02 - gap;
+        format!(
+            "{GRIP}[[bodies]]\nmotion = \"fixed\"\nshape.box.size = [0.009, 0.02, 0.02]\nmaterial = \"m\"\nposition = [0.0, 0.0, {z:?}]\n"
+        )
+    };
+    for gap in [1e-6, 5e-6] {
+        let moved = slips(&shelf(gap), 1.01, ("accelerated", "warm"), 300);
+        assert!(moved < 1e-10, "{gap} m above a shelf the box moves by {moved} m");
     }
 }

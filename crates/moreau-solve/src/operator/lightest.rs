@@ -26,7 +26,18 @@ const STIFF: f64 = 1e4;
 /// How often contacts that cannot follow are left out.
 const ROUNDS: usize = 4;
 
-/// Scratch of [`MatrixFree::balance`] and [`MatrixFree::lighten`].
+/// How a contact stands before a solve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It touches, and its bodies do not move there.
+    Rests,
+    /// It has a gap that stays as it is while its bodies do not move there: it carries nothing.
+    Open,
+    /// Its bodies move there.
+    Moves,
+}
+
+/// Scratch of [`MatrixFree::least_start`].
 #[derive(Clone, Debug, Default)]
 pub struct Lightest<const D: usize, const N: usize> {
     /// k_c of each component; zero for what does not take part.
@@ -34,6 +45,8 @@ pub struct Lightest<const D: usize, const N: usize> {
     target: Vec<Vector<D>>,
     /// Bodies of which no equilibrium was found.
     moves: Vec<bool>,
+    /// Contacts that were given the impulses of an equilibrium.
+    balanced: Vec<bool>,
     z: Vec<[f64; N]>,
     left: Vec<[f64; N]>,
     /// 1 over the diagonal of Jᵀ k J, and the scaled left.
@@ -44,20 +57,39 @@ pub struct Lightest<const D: usize, const N: usize> {
 }
 
 impl<const D: usize, const N: usize> MatrixFree<D, N> {
-    /// Gives the contacts that `rest` the least impulses that hold their bodies, which then have this `state` (velocities of the operator), where
-    /// all contacts of bodies that touch do rest and all those impulses are within their cones: an answer of the law with which nothing slips. Other contacts keep
-    /// theirs.
-    pub fn balance(
+    /// Draws the impulses that a solve starts from to the least ones, at contacts that rest: with a `state` (velocities of the operator) to those of an
+    /// equilibrium in which the bodies have it, where there is one; then, with a `part`, that part of the way to the least that do the same.
+    pub fn least_start(
         &self,
-        (cones, rest): (&[Cone], &dyn Fn(usize) -> bool),
+        contacts: (&[Cone], &dyn Fn(usize) -> Standing),
+        (state, part): (Option<&[[f64; N]]>, Option<f64>),
+        r: &mut [Vector<D>],
+        scratch: &mut Lightest<D, N>,
+    ) {
+        scratch.balanced.clear();
+        scratch.balanced.resize(r.len(), false);
+        if let Some(state) = state {
+            self.balance(contacts, state, r, scratch);
+        }
+        if let Some(part) = part {
+            self.lighten(contacts, part, r, scratch);
+        }
+    }
+
+    /// Gives the contacts that rest the least impulses that hold their bodies, which then have this `state` (velocities of the operator), where
+    /// no contact of bodies that touch moves and all those impulses are within their cones: an answer of the law with which nothing slips. Other contacts keep
+    /// theirs.
+    fn balance(
+        &self,
+        (cones, standing): (&[Cone], &dyn Fn(usize) -> Standing),
         state: &[[f64; N]],
         r: &mut [Vector<D>],
         scratch: &mut Lightest<D, N>,
     ) {
-        scratch.stiffen(cones, rest);
+        scratch.stiffen(cones, standing);
         scratch.moves.clear();
         scratch.moves.resize(self.bodies(), false);
-        self.spread_moves(&|c, stiffness| !takes_part(&stiffness[c]), scratch);
+        self.spread_moves(&|c| standing(c) == Standing::Moves, scratch);
         let moves = scratch.moves.iter();
         scratch.left.clear();
         scratch.left.extend(state.iter().zip(moves).map(|(y, &moves)| if moves { [0.0; N] } else { *y }));
@@ -84,16 +116,15 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
                 self.mark(c, &mut scratch.moves);
             }
         }
-        self.spread_moves(&|_, _| false, scratch);
-        for c in 0..r.len() {
-            if takes_part(&scratch.stiffness[c]) && !self.is_marked(c, &scratch.moves) {
-                r[c] = scratch.target[c];
-            }
+        self.spread_moves(&|_| false, scratch);
+        for c in (0..r.len()).filter(|&c| !self.is_marked(c, &scratch.moves)) {
+            // What is open and takes no part has a target of zero.
+            (r[c], scratch.balanced[c]) = (scratch.target[c], true);
         }
     }
 
     /// Marks the bodies of contacts that are `bad`, and all that touch a marked one.
-    fn spread_moves(&self, bad: &dyn Fn(usize, &[[f64; D]]) -> bool, scratch: &mut Lightest<D, N>) {
+    fn spread_moves(&self, bad: &dyn Fn(usize) -> bool, scratch: &mut Lightest<D, N>) {
         let Lightest { stiffness, moves, .. } = scratch;
         let mut changed = true;
         while changed {
@@ -101,7 +132,7 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
             for c in 0..stiffness.len() {
                 let bodies = self.pair(c).into_iter().filter(|&body| body != NONE);
                 let marked = bodies.clone().filter(|&body| moves[body as usize]).count();
-                if (marked > 0 || bad(c, stiffness)) && marked < bodies.count() {
+                if (marked > 0 || bad(c)) && marked < bodies.count() {
                     self.mark(c, moves);
                     changed = true;
                 }
@@ -117,16 +148,21 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         self.pair(c).into_iter().any(|body| body != NONE && moves[body as usize])
     }
 
-    /// Brings the impulses of the contacts that `rest` a `part` of the way to the least ones that do the same to the bodies. Impulses stay in their cones; contacts whose least impulse is
-    /// outside keep theirs. Nothing changes where that cannot be found.
-    pub fn lighten(
+    /// Brings the impulses of the contacts that rest a `part` of the way to the least ones that do the same to the bodies. Impulses stay in their cones; contacts whose least impulse is
+    /// outside keep theirs. Nothing changes where that cannot be found. What an equilibrium was found for is the least already, and touches nothing else that is free.
+    fn lighten(
         &self,
-        (cones, rest): (&[Cone], &dyn Fn(usize) -> bool),
+        (cones, standing): (&[Cone], &dyn Fn(usize) -> Standing),
         part: f64,
         r: &mut [Vector<D>],
         scratch: &mut Lightest<D, N>,
     ) {
-        scratch.stiffen(cones, rest);
+        scratch.stiffen(cones, standing);
+        let balanced = scratch.balanced.iter();
+        scratch.stiffness.iter_mut().zip(balanced).filter(|(_, balanced)| **balanced).for_each(|(k, _)| *k = [0.0; D]);
+        if !scratch.stiffness.iter().any(takes_part) {
+            return;
+        }
         for _ in 0..ROUNDS {
             scratch.left.clear();
             scratch.left.resize(self.bodies(), [0.0; N]);
@@ -153,7 +189,7 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
 
     /// Finds the least of `contacts` impulses that do to the bodies what is left; false where conjugate gradients do not end.
     fn least(&self, contacts: usize, scratch: &mut Lightest<D, N>) -> bool {
-        let Lightest { stiffness, target, z, left, inverse, scaled, way, image, moves: _ } = scratch;
+        let Lightest { stiffness, target, z, left, inverse, scaled, way, image, .. } = scratch;
         for list in [&mut *z, &mut *image, &mut *inverse, &mut *scaled] {
             list.clear();
             list.resize(self.bodies(), [0.0; N]);
@@ -222,9 +258,10 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
 
 impl<const D: usize, const N: usize> Lightest<D, N> {
     /// k_c of the contacts that rest.
-    fn stiffen(&mut self, cones: &[Cone], rest: &dyn Fn(usize) -> bool) {
+    fn stiffen(&mut self, cones: &[Cone], standing: &dyn Fn(usize) -> Standing) {
         let stiff = |c: usize| if matches!(cones[c], Cone::Bilateral { .. }) { STIFF } else { 1.0 };
-        let stiffness = |c: usize| std::array::from_fn(|i| if rest(c) && cones[c].binds(i) { stiff(c) } else { 0.0 });
+        let stiffness =
+            |c: usize| std::array::from_fn(|i| if standing(c) == Standing::Rests && cones[c].binds(i) { stiff(c) } else { 0.0 });
         self.stiffness.clear();
         self.stiffness.extend((0..cones.len()).map(stiffness));
     }

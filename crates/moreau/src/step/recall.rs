@@ -6,12 +6,13 @@ use crate::contacts::ContactKey;
 use crate::space::Space;
 use crate::world::{Rows, Start, World};
 use moreau_solve::block::norm;
+use moreau_solve::operator::Standing;
 use moreau_solve::tasks;
 
 /// What of the way to the least impulses a start goes at once.
 const PART: f64 = 0.5;
 
-/// A contact with a gap below this part of the smaller body's size that goes no farther in a step is at rest.
+/// A contact that goes no farther in a step than this part of the smaller body's size does not move; with a gap below that it touches.
 const AT_REST: f64 = 1e-7;
 
 /// Gives contacts the impulses of the step before, as far as they had any. Both lists are sorted by key.
@@ -58,27 +59,31 @@ pub(super) fn lighten<S: Space<D, N>, const D: usize, const N: usize>(
         return;
     }
     let (contacts, blocks, bodies) = (&work.contacts, &work.joints.blocks, &world.bodies);
-    let rest = |c: usize| {
+    let standing = |c: usize| {
         let (before, gap, pair) = match contacts.get(c) {
             Some(Localised { before, contact, .. }) => {
                 (before, contact.gap, [contact.key.a, contact.key.b].map(|body| Some(body as usize)))
             }
             None => (&blocks[c - contacts.len()].before, 0.0, blocks[c - contacts.len()].bodies),
         };
-        // A gap that stays open carries nothing.
-        gap.max(h * norm(before)) <= AT_REST * smaller(bodies, pair.into_iter().flatten())
+        let bound = AT_REST * smaller(bodies, pair.into_iter().flatten());
+        match h * norm(before) <= bound {
+            true if gap <= bound => Standing::Rests,
+            true => Standing::Open,
+            false => Standing::Moves,
+        }
     };
     let few = contacts.len() + blocks.len() <= FEW;
-    if !warm || few || world.steps.is_multiple_of(EVERY) || world.steps.is_power_of_two() {
+    let balance = !warm || few || world.steps.is_multiple_of(EVERY) || world.steps.is_power_of_two();
+    let lighten = warm && (few || world.steps.is_multiple_of(LIGHTER_EVERY));
+    if balance {
         let root = &bodies.root_inverse_mass;
         let held = |i: usize, k: usize| {
             let root = root[i][k];
             if root > 0.0 { (bodies.velocity[i][k] - work.free[i][k]) / root } else { 0.0 }
         };
         tasks::fill(&mut work.held, bodies.len(), |i| std::array::from_fn(|k| held(i, k)));
-        work.systems.full.balance(&rest, &work.held, &mut work.lightest);
     }
-    if warm && (few || world.steps.is_multiple_of(LIGHTER_EVERY)) {
-        work.systems.full.lighten(&rest, PART, &mut work.lightest);
-    }
+    let ways = (balance.then_some(work.held.as_slice()), lighten.then_some(PART));
+    work.systems.full.least_start(&standing, ways, &mut work.lightest);
 }

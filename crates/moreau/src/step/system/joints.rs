@@ -5,18 +5,18 @@ use super::operators::Assembled;
 use crate::bodies::Bodies;
 use crate::space::{Pose, Space};
 use crate::step::joints::{Block, StepJoints};
-use moreau_solve::operator::{Lightest, NONE};
+use moreau_solve::operator::{Lightest, NONE, Standing};
 use moreau_solve::{Cone, MatrixFree, Operator, Problem, Residual};
 
 impl<S: Space<D, N>, const D: usize, const N: usize> System<MatrixFree<D, N>, S, D, N, D> {
-    /// Brings the impulses to start from nearer to the least that do the same; see [`MatrixFree::lighten`].
-    pub(in crate::step) fn lighten(&mut self, rest: &dyn Fn(usize) -> bool, part: f64, scratch: &mut Lightest<D, N>) {
-        self.operator.lighten((&self.cones, rest), part, &mut self.r, scratch);
-    }
-
-    /// Gives contacts at rest the least impulses that hold their bodies, where these are within the cones; see [`MatrixFree::balance`].
-    pub(in crate::step) fn balance(&mut self, rest: &dyn Fn(usize) -> bool, state: &[[f64; N]], scratch: &mut Lightest<D, N>) {
-        self.operator.balance((&self.cones, rest), state, &mut self.r, scratch);
+    /// Draws the impulses to start from to the least ones; see [`MatrixFree::least_start`].
+    pub(in crate::step) fn least_start(
+        &mut self,
+        standing: &dyn Fn(usize) -> Standing,
+        ways: (Option<&[[f64; N]]>, Option<f64>),
+        scratch: &mut Lightest<D, N>,
+    ) {
+        self.operator.least_start((&self.cones, standing), ways, &mut self.r, scratch);
     }
 
     /// Adds the blocks to the contacts that fill the system.
