@@ -89,7 +89,10 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
         scratch.stiffen(cones, standing);
         scratch.moves.clear();
         scratch.moves.resize(self.bodies(), false);
-        self.spread_moves(&|c| standing(c) == Standing::Moves, scratch);
+        for c in (0..r.len()).filter(|&c| standing(c) == Standing::Moves) {
+            self.mark(c, &mut scratch.moves);
+        }
+        self.spread_moves(r.len(), &mut scratch.moves);
         let moves = scratch.moves.iter();
         scratch.left.clear();
         scratch.left.extend(state.iter().zip(moves).map(|(y, &moves)| if moves { [0.0; N] } else { *y }));
@@ -116,23 +119,22 @@ impl<const D: usize, const N: usize> MatrixFree<D, N> {
                 self.mark(c, &mut scratch.moves);
             }
         }
-        self.spread_moves(&|_| false, scratch);
+        self.spread_moves(r.len(), &mut scratch.moves);
         for c in (0..r.len()).filter(|&c| !self.is_marked(c, &scratch.moves)) {
             // What is open and takes no part has a target of zero.
             (r[c], scratch.balanced[c]) = (scratch.target[c], true);
         }
     }
 
-    /// Marks the bodies of contacts that are `bad`, and all that touch a marked one.
-    fn spread_moves(&self, bad: &dyn Fn(usize) -> bool, scratch: &mut Lightest<D, N>) {
-        let Lightest { stiffness, moves, .. } = scratch;
+    /// Marks all bodies that touch a marked one at one of so many contacts.
+    fn spread_moves(&self, contacts: usize, moves: &mut [bool]) {
         let mut changed = true;
         while changed {
             changed = false;
-            for c in 0..stiffness.len() {
+            for c in 0..contacts {
                 let bodies = self.pair(c).into_iter().filter(|&body| body != NONE);
                 let marked = bodies.clone().filter(|&body| moves[body as usize]).count();
-                if (marked > 0 || bad(c)) && marked < bodies.count() {
+                if marked > 0 && marked < bodies.count() {
                     self.mark(c, moves);
                     changed = true;
                 }
