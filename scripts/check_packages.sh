@@ -19,7 +19,8 @@ END
 sed -n '/^\[profile/,$p' Cargo.toml >> "$out/Cargo.toml"
 printf '\n[patch.crates-io]\n' >> "$out/Cargo.toml"
 for package in "$out"/packed/package/*.crate; do
-    tar -xzf "$package" -C "$out"
+    # Files in packages bear one old date: without that of now a build of an earlier package, kept in target/, would count as theirs.
+    tar -xzmf "$package" -C "$out"
     folder=$(basename "$package" .crate)
     for file in README.md LICENSE-MIT LICENSE-APACHE; do
         test -s "$out/$folder/$file" || { echo "$folder lacks $file"; exit 1; }
